@@ -1,0 +1,102 @@
+#include "app/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "math/errors.hpp"
+
+namespace cobasis {
+namespace {
+
+[[noreturn]] void fail(const std::string& path, int error) {
+  throw SystemError(fmt::format("cannot write '{}': {}", path, std::strerror(error)));
+}
+
+/// 0 or the error's number.
+int write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+/// Makes the names in the directory of a file last through a power failure; some file systems cannot and say so.
+void sync_directory_of(const std::string& path) {
+  const std::string directory = std::filesystem::path(path).parent_path().string();
+  const int descriptor = ::open(directory.empty() ? "." : directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+void write_atomically(const std::string& path, std::string_view bytes) {
+  const std::string part = path + ".part";
+  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail(path, errno);
+  int error = write_all(descriptor, bytes);
+  if (error == 0 && ::fsync(descriptor) != 0) error = errno;
+  if (::close(descriptor) != 0 && error == 0) error = errno;
+  if (error == 0 && ::rename(part.c_str(), path.c_str()) != 0) error = errno;
+  if (error != 0) {
+    ::unlink(part.c_str());
+    fail(path, error);
+  }
+  sync_directory_of(path);
+}
+
+void make_writable_directory(const std::string& path, const std::string& probe_name) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw SystemError(fmt::format("cannot create directory '{}': {}", path, error.message()));
+  const std::string probe = (std::filesystem::path(path) / probe_name).string();
+  const int descriptor = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0 && errno != EEXIST) {
+    throw SystemError(fmt::format("cannot write into directory '{}': {}", path, std::strerror(errno)));
+  }
+  if (descriptor < 0) return;
+  ::close(descriptor);
+  ::unlink(probe.c_str());
+}
+
+RowFile::RowFile(const std::string& path, std::string_view header) : path_(path) {
+  write_atomically(path, header);
+  size_ = static_cast<std::int64_t>(header.size());
+  descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (descriptor_ < 0) fail(path_, errno);
+}
+
+RowFile::RowFile(RowFile&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_) {}
+
+RowFile::~RowFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void RowFile::append(std::string_view row) {
+  if (const int error = write_all(descriptor_, row)) {
+    // Should the part not go away either, the message below already says that the table is broken.
+    [[maybe_unused]] const int ignored = ::ftruncate(descriptor_, size_);
+    fail(path_, error);
+  }
+  size_ += static_cast<std::int64_t>(row.size());
+}
+
+void RowFile::close() {
+  if (descriptor_ < 0) return;
+  const int error = ::fsync(descriptor_) == 0 ? 0 : errno;
+  const int closed = ::close(std::exchange(descriptor_, -1)) == 0 ? 0 : errno;
+  if (error || closed) fail(path_, error ? error : closed);
+}
+
+}  // namespace cobasis

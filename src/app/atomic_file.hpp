@@ -1,0 +1,34 @@
+// Files that are whole or not there: a reader, or a full disk, never meets half of one.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace cobasis {
+
+/// Replaces the file by these bytes, on disk when it returns. Throws SystemError with path and reason and then leaves
+/// the former file as it was.
+void write_atomically(const std::string& path, std::string_view bytes);
+
+/// Creates the directory and its parents and makes sure that files can be created in it. Throws SystemError.
+void make_writable_directory(const std::string& path, const std::string& probe_name);
+
+/// A table that grows by whole rows. Throws SystemError with path and reason; a row that fails leaves no part of it.
+class RowFile {
+ public:
+  RowFile(const std::string& path, std::string_view header);
+  ~RowFile();
+  RowFile(RowFile&& other) noexcept;
+  RowFile& operator=(RowFile&&) = delete;
+
+  void append(std::string_view row);
+  void close();  ///< on disk when it returns
+
+ private:
+  std::string path_;
+  int descriptor_ = -1;
+  std::int64_t size_ = 0;  ///< [bytes]
+};
+
+}  // namespace cobasis

@@ -1,0 +1,88 @@
+#include "app/case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/case_parts.hpp"
+#include "math/errors.hpp"
+
+namespace cobasis {
+namespace {
+
+TomlTable changed_document(const std::string& file, const CaseOverrides& overrides) {
+  TomlTable document = read_toml(file);
+  for (const auto& [key, value] : overrides.set) set_value(document, key, value);
+  return document;
+}
+
+void read_mesh_keys(const CaseTable& top, CaseReading& reading) {
+  Setup& setup = reading.setup;
+  const auto mesh = top.text("mesh");
+  std::filesystem::path path;
+  if (mesh) {
+    path = (std::filesystem::path(setup.case_file).parent_path() / *mesh).lexically_normal();
+    setup.mesh_file = path.string();
+    std::error_code none;
+    if (path.extension() != ".geo" && path.extension() != ".msh")
+      reading.mistakes.add(top.where("mesh"), fmt::format("mesh = \"{}\"; allowed: a .geo or .msh file", *mesh));
+    else if (!std::filesystem::is_regular_file(path, none))
+      reading.mistakes.add(top.where("mesh"), fmt::format("mesh = \"{}\": there is no file {}; allowed: an existing "
+                                                          ".geo or .msh, relative to the case file",
+                                                          *mesh, setup.mesh_file));
+  }
+  const TomlEntry* parameters = top.table("mesh_parameters");
+  if (!parameters) return;
+  const auto& numbers = std::get<TomlTable>(parameters->value.data);
+  if (!numbers.empty() && path.extension() == ".msh")
+    reading.mistakes.add(parameters->where, "mesh_parameters of a .msh, which is a finished mesh; allowed: of a .geo");
+  for (const TomlEntry& entry : numbers)
+    if (check_value(keys_of("[mesh_parameters]").keys.front(), "mesh_parameters." + entry.key, entry.value,
+                    reading.mistakes))
+      setup.mesh_parameters[entry.key] = number_of(entry.value);
+}
+
+void read_top_level(const CaseTable& top, CaseReading& reading) {
+  Setup& setup = reading.setup;
+  setup.title = top.text("title").value_or("");
+  if (const auto scene = top.text("scene")) setup.scene = *scene == "plane" ? Geometry::plane : Geometry::space;
+  setup.end_time = top.number("end_time").value_or(0);
+  setup.cfl = top.number("cfl").value_or(setup.cfl);
+  setup.alpha_min = top.number("alpha_min").value_or(setup.alpha_min);
+  setup.max_steps = top.integer("max_steps");
+  top.table("scheme", keys_of("[scheme]"));
+}
+
+}  // namespace
+
+Setup read_case(const std::string& file, const CaseOverrides& overrides) {
+  const TomlTable document = changed_document(file, overrides);
+  CaseReading reading{{}, Mistakes(file), {}};
+  reading.setup.case_file = file;
+  const CaseTable top(document, Place{1, {}}, keys_of("the case"), reading.mistakes);
+  read_top_level(top, reading);
+  read_mesh_keys(top, reading);
+  read_phases(top, reading);
+  read_contacts(top, reading);
+  read_regions(top, reading);
+  read_boundaries(top, reading);
+  read_output(top, reading);
+  if (!overrides.output.empty()) reading.setup.output.directory = overrides.output;
+  if (reading.setup.scene)
+    for (const std::string& mistake : mistakes_in_geometry(reading.setup, *reading.setup.scene))
+      reading.mistakes.add(mistake);
+  reading.mistakes.throw_if_any();
+  return std::move(reading.setup);
+}
+
+std::vector<std::pair<std::string, std::string>> periodic_pairs(const Setup& setup) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const BoundarySetup& boundary : setup.boundaries)
+    if (const auto* periodic = std::get_if<Periodic>(&boundary.boundary))
+      if (std::ranges::find(pairs, std::pair(periodic->with, boundary.group)) == pairs.end())
+        pairs.emplace_back(boundary.group, periodic->with);
+  return pairs;
+}
+
+}  // namespace cobasis

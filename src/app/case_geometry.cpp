@@ -1,0 +1,105 @@
+// What a plane or a space scene cannot hold.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/case.hpp"
+#include "app/case_parts.hpp"
+#include "math/errors.hpp"
+
+namespace cobasis {
+namespace {
+
+class GeometryCheck {
+ public:
+  GeometryCheck(const Setup& setup, Geometry geometry) : setup_(setup), plane_(geometry == Geometry::plane) {}
+
+  std::vector<std::string> mistakes() {
+    for (const RegionSetup& region : setup_.regions) {
+      where_ = region.where + ": ";
+      std::visit([this](const auto& shape) { check(shape); }, region.shape);
+      check(region.filling);
+    }
+    for (const BoundarySetup& boundary : setup_.boundaries) {
+      where_ = boundary.where + ": ";
+      if (const auto* inflow = std::get_if<Inflow>(&boundary.boundary)) check(inflow->filling);
+    }
+    where_ = setup_.case_file + ": ";
+    for (const LineSetup& line : setup_.lines) {
+      check(line.from, fmt::format("line \"{}\": from", line.name));
+      check(line.to, fmt::format("line \"{}\": to", line.name));
+    }
+    for (const ProbeSetup& probe : setup_.probes) check(probe.at, fmt::format("probe \"{}\": at", probe.name));
+    for (const IntegralSetup& integral : setup_.integrals) {
+      const Axis axis = std::visit([](const auto& what) { return what.axis; }, integral.what);
+      if (plane_ && axis == Axis::z)
+        add(fmt::format("integral \"{}\": axis = \"z\" in a plane scene; allowed: x, y, radial", integral.name));
+    }
+    return mistakes_;
+  }
+
+ private:
+  void add(const std::string& text) { mistakes_.push_back(where_ + text); }
+
+  void check(const Point& x, const std::string& what) {
+    if (plane_ && x.z != 0)
+      add(fmt::format("{} = [{}, {}, {}] in a plane scene; allowed: third number 0 or none", what, x.x, x.y, x.z));
+  }
+
+  void check(const Everywhere&) {}
+  void check(const PhysicalGroup&) {}
+  void check(const Inside&) {}
+  void check(const HalfSpace& half) {
+    check(half.point, "point");
+    check(half.normal, "normal");
+  }
+  void check(const Box& box) {
+    if (plane_ && !(box.low.z <= 0 && 0 <= box.high.z))
+      add("box beside the plane z = 0 in a plane scene; allowed: 2 numbers in low and high, or z from below to above "
+          "0");
+    if (!plane_ && !(box.low.z < box.high.z))
+      add("box of no height in z in a space scene; allowed: 3 numbers in low and high, low < high");
+  }
+  void check(const Sphere& sphere) { check(sphere.center, "center"); }
+  void check(const Cylinder&) {
+    if (plane_)
+      add("shape = \"cylinder\" in a plane scene; allowed: everywhere, half_space, box, sphere (a disc), "
+          "physical_group, expression");
+  }
+
+  void check(const Filling& filling) {
+    for (std::size_t k = 0; plane_ && k < filling.states.size(); ++k) {
+      if (filling.alpha[k] == 0) continue;
+      const PhaseState& state = filling.states[k];
+      const Expression& w = state.velocity[2];
+      if (!w.is_constant() || w.constant() != 0) {
+        add(fmt::format("velocity of phase \"{}\" has a third component in a plane scene; allowed: 2 components, or 0",
+                        setup_.phases[k].name));
+      }
+      if (!state.cobasis) continue;
+      const auto& e = *state.cobasis;
+      if (e[2][0] != 0 || e[2][1] != 0 || e[0][2] != 0 || e[1][2] != 0)
+        add(
+            fmt::format("cobasis of phase \"{}\" shears out of the plane in a plane scene; allowed: "
+                        "[[a1, a2, 0], [b1, b2, 0], [0, 0, c3]]",
+                        setup_.phases[k].name));
+    }
+  }
+
+  const Setup& setup_;
+  bool plane_;
+  std::string where_;
+  std::vector<std::string> mistakes_;
+};
+
+}  // namespace
+
+std::vector<std::string> mistakes_in_geometry(const Setup& setup, Geometry geometry) {
+  return GeometryCheck(setup, geometry).mistakes();
+}
+
+void check_for_geometry(const Setup& setup, Geometry geometry) {
+  const auto mistakes = mistakes_in_geometry(setup, geometry);
+  if (!mistakes.empty()) throw InputError(fmt::format("{}", fmt::join(mistakes, "\n")));
+}
+
+}  // namespace cobasis

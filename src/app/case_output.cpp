@@ -1,0 +1,95 @@
+// [output], [[line]], [[probe]], [[integral]].
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <set>
+
+#include "app/case_parts.hpp"
+
+namespace cobasis {
+namespace {
+
+constexpr int default_count = 20;
+
+/// Unique among the names that share a file or a directory, and none of those that are taken there.
+class Names {
+ public:
+  Names(std::set<std::string> taken, std::string where) : taken_(std::move(taken)), where_(std::move(where)) {}
+
+  std::string read(const CaseTable& table) {
+    const auto name = table.text("name");
+    if (name && !taken_.insert(*name).second)
+      table.mistakes().add(table.where("name"),
+                           fmt::format("name = \"{}\" is taken in {}; allowed: a name of its own", *name, where_));
+    return name.value_or("");
+  }
+
+ private:
+  std::set<std::string> taken_;
+  std::string where_;
+};
+
+Axis axis_of(const CaseTable& table) {
+  const std::string axis = table.text("axis").value_or("x");
+  return axis == "x" ? Axis::x : axis == "y" ? Axis::y : axis == "z" ? Axis::z : Axis::radial;
+}
+
+int phase_of(const CaseTable& table, CaseReading& reading) {
+  const auto name = table.text("phase");
+  return name ? reading.phase(*name, table.where("phase")).value_or(0) : 0;
+}
+
+IntegralSetup read_integral(CaseTable& table, const std::string& name, CaseReading& reading) {
+  table.at_most_one({"extent", "quantile"});
+  if (const auto extent = table.table("extent", keys_of("extent")))
+    return {name, Extent{phase_of(*extent, reading), extent->number("alpha").value_or(0), axis_of(*extent)}};
+  if (const auto quantile = table.table("quantile", keys_of("quantile")))
+    return {name, Quantile{phase_of(*quantile, reading), quantile->number("fraction").value_or(0), axis_of(*quantile)}};
+  if (!table.has("extent") && !table.has("quantile"))
+    reading.mistakes.add(table.where(), "neither extent nor quantile; allowed: one of them");
+  return {name, Extent{}};
+}
+
+std::string directory_of(const std::optional<std::string>& given, const std::string& case_file) {
+  const std::filesystem::path file(case_file);
+  return given ? (file.parent_path() / *given).lexically_normal().string() : file.stem().string();
+}
+
+void read_output_table(CaseTable& table, CaseReading& reading) {
+  OutputSetup& output = reading.setup.output;
+  table.at_most_one({"every", "count"});
+  const auto directory = table.text("directory");
+  if (directory && directory->empty())
+    reading.mistakes.add(table.where("directory"), "directory = \"\"; allowed: a path relative to the case file");
+  output.directory = directory_of(directory, reading.setup.case_file);
+  output.every = table.number("every");
+  if (const auto count = table.integer("count")) output.count = static_cast<int>(*count);
+  if (const auto fields = table.words("fields")) output.fields = *fields;
+  output.float64 = table.text("precision") == "float64";
+  reading.setup.history_every = table.integer("history_every");
+}
+
+}  // namespace
+
+void read_output(const CaseTable& top, CaseReading& reading) {
+  Setup& setup = reading.setup;
+  setup.output.directory = directory_of(std::nullopt, setup.case_file);
+  setup.output.fields = {"alpha", "density", "velocity", "pressure", "stress"};
+  if (auto table = top.table("output", keys_of("[output]"))) read_output_table(*table, reading);
+  if (!setup.output.every && !setup.output.count) setup.output.count = default_count;
+
+  Names files({"history", "units"}, "the output directory");
+  for (const CaseTable& table : top.tables("line", keys_of("[[line]]"))) {
+    const Point from = table.point("from").value_or(Point{}), to = table.point("to").value_or(Point{});
+    setup.lines.push_back({files.read(table), from, to, static_cast<int>(table.integer("points").value_or(2))});
+  }
+  for (const CaseTable& table : top.tables("probe", keys_of("[[probe]]")))
+    setup.probes.push_back({files.read(table), table.point("at").value_or(Point{})});
+  Names columns({"step", "time", "dt"}, "history.csv");
+  for (CaseTable& table : top.tables("integral", keys_of("[[integral]]"))) {
+    const std::string name = columns.read(table);
+    setup.integrals.push_back(read_integral(table, name, reading));
+  }
+}
+
+}  // namespace cobasis

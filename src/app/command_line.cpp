@@ -1,0 +1,114 @@
+#include "app/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "app/case_keys.hpp"
+#include "app/suggestion.hpp"
+#include "math/errors.hpp"
+
+namespace cobasis {
+namespace {
+
+using Command = CommandLine::Command;
+
+const std::vector<std::string> commands{"run", "check", "info", "help", "--help", "-h", "--version"};
+
+/// At the first = outside quotes, which a key may need: boundary."a=b".
+std::pair<std::string, std::string> key_and_value(const std::string& text) {
+  char quote = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (quote ? text[i] == quote : text[i] == '"' || text[i] == '\'')
+      quote = quote ? 0 : text[i];
+    else if (text[i] == '=' && !quote && i > 0)
+      return {text.substr(0, i), text.substr(i + 1)};
+  }
+  throw InputError(fmt::format("--set {}: found no key and =; allowed: --set key=value", text));
+}
+
+/// --set takes all words up to the next option, so that `--set a=1 b=2` works; the case may be among them.
+void sort_out_settings(CommandLine& line, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (line.file.empty() && word.find('=') == std::string::npos)
+      line.file = word;
+    else
+      line.overrides.set.push_back(key_and_value(word));
+  }
+}
+
+[[noreturn]] void refuse_extras(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> options;
+  for (const CLI::Option* option : app.get_options())
+    if (option->nonpositional()) options.push_back(option->get_name());
+  throw InputError(
+      fmt::format("cobasis {}: \"{}\" is not expected; {}", app.get_name(), word,
+                  word.starts_with("-") ? allowed_names(word, options) : "allowed: one file, see cobasis --help"));
+}
+
+}  // namespace
+
+CommandLine read_command_line(const std::vector<std::string>& arguments) {
+  CommandLine line;
+  std::vector<std::string> settings;
+  std::string topic;
+
+  CLI::App app{"Cobasis: solids and fluids with interfaces on unstructured meshes", "cobasis"};
+  app.set_version_flag("--version", "cobasis " COBASIS_VERSION);
+  const auto add = [&](const char* name, const char* meaning, const char* file, const char* file_meaning) {
+    CLI::App* command = app.add_subcommand(name, meaning);
+    command->add_option(file, line.file, file_meaning)->type_name("");
+    command->add_flag("--trust-geo", line.trust_geo, "let a .geo run commands and read other files");
+    return command;
+  };
+  const auto add_set = [&](CLI::App* command) {
+    command->add_option("--set", settings, "change a key of the case, e.g. region.0.pressure=2e5")
+        ->type_name("key=value");
+  };
+  CLI::App* run = add("run", "compute a case", "CASE", "case file (TOML)");
+  run->add_option("--output", line.overrides.output, "output directory instead of the case's")->type_name("DIR");
+  run->add_flag("--quiet", line.quiet, "no progress, only the last line");
+  add_set(run);
+  CLI::App* check = add("check", "validate a case and its mesh, and say what the scene requires", "CASE", "case file");
+  add_set(check);
+  add("info", "cells, groups and quality of a mesh", "MESH", "mesh file (.geo, .msh)");
+  CLI::App* help =
+      app.add_subcommand("help", "help case: every key of a case file, its unit, default and allowed range");
+  help->add_option("topic", topic, "case")->type_name("");
+
+  if (arguments.empty()) throw InputError(fmt::format("no command; {}", allowed_names("", commands)));
+  if (std::ranges::find(commands, arguments[0]) == commands.end())
+    throw InputError(fmt::format("unknown command \"{}\"; {}", arguments[0], allowed_names(arguments[0], commands)));
+  for (CLI::App* command : app.get_subcommands({})) command->allow_extras();
+  try {
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::CallForHelp&) {
+    line.text = app.help();
+    return line;
+  } catch (const CLI::CallForVersion&) {
+    line.text = app.version() + "\n";
+    return line;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(fmt::format("{}; see cobasis --help", error.what()));
+  }
+
+  const CLI::App* command = app.get_subcommands().front();
+  if (const auto extras = command->remaining(); !extras.empty()) refuse_extras(*command, extras.front());
+  if (command == help) {
+    if (!topic.empty() && topic != "case")
+      throw InputError(
+          fmt::format("help on \"{}\"; {}", topic, allowed_names(topic, std::vector<std::string>{"case"})));
+    if (topic.empty()) return read_command_line({"--help"});
+    line.text = describe_case_keys();
+    return line;
+  }
+  line.command = command == run ? Command::run : command == check ? Command::check : Command::info;
+  sort_out_settings(line, settings);
+  if (line.file.empty())
+    throw InputError(fmt::format("cobasis {}: no file; allowed: cobasis {} {}", command->get_name(),
+                                 command->get_name(), line.command == Command::info ? "MESH" : "CASE"));
+  return line;
+}
+
+}  // namespace cobasis

@@ -1,0 +1,29 @@
+// What the user asked for on the command line.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/case.hpp"
+
+namespace cobasis {
+
+struct CommandLine {
+  enum class Command {
+    run,    ///< the case `file`
+    check,  ///< the case `file`
+    info,   ///< on the mesh `file`
+    print   ///< `text`, and be done: help, version, the keys of a case
+  };
+  Command command = Command::print;
+  std::string file;
+  CaseOverrides overrides;
+  bool trust_geo = false;  ///< let a .geo run commands and read other files
+  bool quiet = false;
+  std::string text;
+};
+
+/// `arguments` without the program's name. Throws InputError on wrong usage.
+CommandLine read_command_line(const std::vector<std::string>& arguments);
+
+}  // namespace cobasis

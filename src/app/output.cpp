@@ -1,0 +1,226 @@
+#include "app/output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cctype>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <string_view>
+
+#include "app/mixture.hpp"
+#include "app/output_fields.hpp"
+#include "app/tables.hpp"
+#include "math/errors.hpp"
+
+namespace cobasis {
+namespace {
+
+void check_table_names(const Setup& setup) {
+  std::set<std::string> taken = {"history", "units"};
+  const auto check = [&](const char* kind, const std::string& name) {
+    const std::string what = fmt::format("{}: [[{}]] name '{}'", setup.case_file, kind, name);
+    if (name.empty() || name.find('/') != std::string::npos) throw InputError(what + " is no file name");
+    if (!taken.insert(name).second) throw InputError(what + " is already the name of another table");
+  };
+  for (const LineSetup& line : setup.lines) check("line", line.name);
+  for (const ProbeSetup& probe : setup.probes) check("probe", probe.name);
+}
+
+/// The rest of the text after the prefix and the digits behind it; the text itself if it does not start like this.
+std::string_view after_number(std::string_view text, std::string_view prefix) {
+  if (!text.starts_with(prefix)) return text;
+  const std::string_view rest = text.substr(prefix.size());
+  const auto end = std::find_if_not(rest.begin(), rest.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+  return end == rest.begin() ? text : rest.substr(static_cast<std::size_t>(end - rest.begin()));
+}
+
+template <class Condition>
+void remove_files(const std::filesystem::path& directory, const Condition& condition) {
+  std::error_code ignored;  // what cannot be removed is in nobody's way
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, ignored)) {
+    if (condition(entry.path().filename().string())) files.push_back(entry.path());
+  }
+  for (const auto& file : files) std::filesystem::remove(file, ignored);
+}
+
+}  // namespace
+
+Output::Output(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mpi& mpi)
+    : setup_(setup),
+      mpi_(mpi),
+      stem_(std::filesystem::path(setup.case_file).stem().string()),
+      vtu_(mesh, setup.output.float64),
+      integrals_(setup.integrals, geometry, mesh, mpi),
+      latest_integrals_(setup.integrals.size(), std::numeric_limits<double>::quiet_NaN()) {
+  check_table_names(setup);
+  try {
+    together([&] {
+      const std::string probe = fmt::format(".writable.{}", mpi.rank());
+      for (const char* folder : {"", "/fields", "/lines"}) {
+        make_writable_directory(setup_.output.directory + folder, probe);
+      }
+    });
+  } catch (const SystemError& error) {
+    throw InputError(fmt::format("{}: [output] directory: {}", setup.case_file, error.what()));
+  }
+  for (const LineSetup& line : setup.lines) {
+    const std::string what = fmt::format("{}: [[line]] '{}'", setup.case_file, line.name);
+    lines_.push_back({line.name, {mesh, mpi, points_on_line(line.from, line.to, line.points), what}, {}, {}});
+  }
+  for (const ProbeSetup& probe : setup.probes) {
+    const std::string what = fmt::format("{}: [[probe]] '{}'", setup.case_file, probe.name);
+    probes_.push_back({probe.name, {mesh, mpi, {probe.at}, what}, {}, {}});
+  }
+}
+
+void Output::write(const Snapshot& snapshot) {
+  const std::string number = fmt::format("{:04}", outputs_.size());
+  const Mixture mixture = mix(snapshot, setup_.phases);
+  const auto fields = output_fields(setup_.output.fields, snapshot, mixture);
+  const auto piece = [&](int rank) { return fmt::format("{}_{}_{}.vtu", stem_, number, rank); };
+  together(
+      [&] { write_atomically(path("fields/" + piece(mpi_.rank())), vtu_.vtu(fields, snapshot.time, snapshot.step)); });
+  outputs_.emplace_back(snapshot.time, fmt::format("fields/{}_{}.pvtu", stem_, number));
+  together([&] {
+    if (!mpi_.root()) return;
+    std::vector<std::string> pieces;
+    for (int rank = 0; rank < mpi_.size(); ++rank) pieces.push_back(piece(rank));
+    write_atomically(path(outputs_.back().second), pvtu(fields, pieces, setup_.output.float64));
+    write_atomically(path(stem_ + ".pvd"), pvd(outputs_));
+    if (outputs_.size() == 1) remove_former_outputs();
+    std::vector<std::pair<std::string, std::string>> units;
+    for (const OutputField& field : fields) {
+      for (std::size_t c = 0; c < field.values.size(); ++c) units.emplace_back(field.column(c), field.unit);
+    }
+    add_units(units);
+  });
+  for (Table& line : lines_) write_line(line, snapshot, number);
+}
+
+void Output::write_line(Table& line, const Snapshot& snapshot, const std::string& number) {
+  const Samples samples = sample(line, snapshot);
+  line.files.emplace_back(snapshot.time, fmt::format("lines/{}_{}.csv", line.name, number));
+  together([&] {
+    if (!mpi_.root()) return;
+    std::vector<std::string> header = {"x", "y", "z"};
+    header.insert(header.end(), samples.columns.begin(), samples.columns.end());
+    std::string text = csv_row(header);
+    const std::vector<Point>& points = line.sampler.points();
+    const std::size_t length = samples.columns.size();
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      std::vector<double> row = {points[p].x, points[p].y, points[p].z};
+      const double* values = samples.rows.data() + p * length;
+      row.insert(row.end(), values, values + length);
+      text += csv_row(row);
+    }
+    write_atomically(path(line.files.back().second), text);
+    write_atomically(path(line.name + ".csv"), text);
+    write_atomically(path(line.name + ".series"), file_series(line.files));
+  });
+}
+
+void Output::history(const Snapshot& snapshot, const std::vector<Column>& totals) {
+  if (!setup_.integrals.empty()) latest_integrals_ = integrals_.evaluate(snapshot);
+  std::vector<Samples> samples;
+  for (const Table& probe : probes_) samples.push_back(sample(probe, snapshot));
+  together([&] {
+    if (!mpi_.root()) return;
+    std::vector<std::pair<std::string, std::string>> columns = {{"step", "1"}, {"time", "s"}, {"dt", "s"}};
+    std::vector<double> row = {static_cast<double>(snapshot.step), snapshot.time, snapshot.dt};
+    for (const Column& total : totals) {
+      columns.emplace_back(total.name, total.unit);
+      row.push_back(total.value);
+    }
+    for (const IntegralSetup& integral : setup_.integrals) columns.emplace_back(integral.name, "m");
+    row.insert(row.end(), latest_integrals_.begin(), latest_integrals_.end());
+    if (!history_) {
+      add_units(columns);
+      std::vector<std::string> header;
+      for (const auto& [name, unit] : columns) header.push_back(name);
+      history_.emplace(path("history.csv"), csv_row(header));
+    }
+    history_->append(csv_row(row));
+
+    for (std::size_t p = 0; p < probes_.size(); ++p) {
+      if (!probes_[p].rows) {
+        std::vector<std::string> header = {"step", "time"};
+        header.insert(header.end(), samples[p].columns.begin(), samples[p].columns.end());
+        probes_[p].rows.emplace(path(probes_[p].name + ".csv"), csv_row(header));
+      }
+      std::vector<double> values = {static_cast<double>(snapshot.step), snapshot.time};
+      values.insert(values.end(), samples[p].rows.begin(), samples[p].rows.end());
+      probes_[p].rows->append(csv_row(values));
+    }
+  });
+}
+
+void Output::finish() {
+  together([&] {
+    if (history_) history_->close();
+    for (Table& probe : probes_) {
+      if (probe.rows) probe.rows->close();
+    }
+  });
+}
+
+double Output::integral(const std::string& name) const {
+  const auto found = std::find_if(setup_.integrals.begin(), setup_.integrals.end(),
+                                  [&](const IntegralSetup& integral) { return integral.name == name; });
+  assert(found != setup_.integrals.end());
+  return latest_integrals_[static_cast<std::size_t>(found - setup_.integrals.begin())];
+}
+
+Output::Samples Output::sample(const Table& table, const Snapshot& snapshot) const {
+  const Snapshot here = extract(snapshot, table.sampler.cells());
+  const Mixture mixture = mix(here, setup_.phases);
+  const auto fields = output_fields(setup_.output.fields, here, mixture);
+  return {columns_of(fields), table.sampler.in_order(mpi_, rows_of(fields))};
+}
+
+void Output::add_units(const std::vector<std::pair<std::string, std::string>>& units) {
+  const std::size_t known = units_.size();
+  for (const auto& unit : units) {
+    if (std::find(units_.begin(), units_.end(), unit) == units_.end()) units_.push_back(unit);
+  }
+  if (units_.size() == known) return;
+  std::string text = "column,unit\n";
+  for (const auto& [column, unit] : units_) text += csv_row(std::vector{column, unit});
+  write_atomically(path("units.csv"), text);
+}
+
+void Output::remove_former_outputs() const {
+  remove_files(path("fields"), [&](const std::string& name) {
+    std::string_view rest = after_number(name, stem_ + "_");
+    if (rest == ".pvtu") return name != stem_ + "_0000.pvtu";
+    if (after_number(rest, "_") != ".vtu") return false;
+    const std::string rank(rest.substr(1, rest.find('.') - 1));
+    const bool just_written = name.starts_with(stem_ + "_0000_") && std::stoi(rank) < mpi_.size();
+    return !just_written;
+  });
+  for (const Table& line : lines_) {
+    remove_files(path("lines"), [&](const std::string& name) { return after_number(name, line.name + "_") == ".csv"; });
+  }
+}
+
+void Output::together(const std::function<void()>& action) const {
+  std::string error;
+  try {
+    action();
+  } catch (const std::exception& caught) {
+    error = caught.what();
+  }
+  const auto failed = static_cast<int>(mpi_.min(error.empty() ? mpi_.size() : mpi_.rank()));
+  if (failed == mpi_.size()) return;
+  std::vector<std::int64_t> letters;
+  if (mpi_.rank() == failed) letters.assign(error.begin(), error.end());
+  letters = mpi_.gather(std::span<const std::int64_t>(letters));
+  std::string text(letters.begin(), letters.end());
+  mpi_.broadcast(text);
+  throw SystemError(text);
+}
+
+}  // namespace cobasis

@@ -1,0 +1,81 @@
+// Everything a running simulation leaves on disk: fields for ParaView, lines, probes, the history.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/atomic_file.hpp"
+#include "app/integrals.hpp"
+#include "app/sampler.hpp"
+#include "app/vtu_writer.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/mpi.hpp"
+#include "solver/setup.hpp"
+#include "solver/snapshot.hpp"
+
+namespace cobasis {
+
+/// In the output directory, with the case file's stem:
+///   stem.pvd            ParaView's entry: times and fields/stem_0000.pvtu, each with fields/stem_0000_<rank>.vtu
+///   <line>.csv          the latest samples; <line>.series: all of them, lines/<line>_0000.csv
+///   <probe>.csv         a row per history row: step, time, fields
+///   history.csv         step, time, dt, totals, integrals
+///   units.csv           unit of every column and field
+/// All members are collective. Failures to write are SystemError on all ranks together, with path and reason.
+class Output {
+ public:
+  /// Creates the directory. Throws InputError, on all ranks together, if nothing can be written there, two tables would
+  /// share a name, or a point lies outside the mesh. Files of others stay as they are; those of an earlier run of the
+  /// case are replaced.
+  Output(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mpi& mpi);
+
+  /// Fields and lines.
+  void write(const Snapshot& snapshot);
+  /// A row of history.csv and of each probe. The snapshot needs alpha if needs_alpha_for_history(), all fields if
+  /// needs_fields_for_history(). `totals`: the same on all ranks, the same names each time.
+  void history(const Snapshot& snapshot, const std::vector<Column>& totals);
+  void finish();
+
+  bool needs_alpha_for_history() const { return !setup_.integrals.empty() || !setup_.probes.empty(); }
+  bool needs_fields_for_history() const { return !setup_.probes.empty(); }
+  /// The latest value of an [[integral]] [m].
+  double integral(const std::string& name) const;
+
+ private:
+  struct Table {
+    std::string name;
+    Sampler sampler;
+    std::vector<std::pair<double, std::string>> files;  ///< of a line: time, path
+    std::optional<RowFile> rows;                        ///< of a probe, rank 0
+  };
+  struct Samples {
+    std::vector<std::string> columns;
+    std::vector<double> rows;  ///< on rank 0, points in order
+  };
+
+  std::string path(const std::string& name) const { return setup_.output.directory + "/" + name; }
+  Samples sample(const Table& table, const Snapshot& snapshot) const;
+  void write_line(Table& line, const Snapshot& snapshot, const std::string& number);
+  void add_units(const std::vector<std::pair<std::string, std::string>>& units);
+  void remove_former_outputs() const;
+  /// Runs the action on every rank; what fails on one becomes SystemError on all.
+  void together(const std::function<void()>& action) const;
+
+  Setup setup_;
+  const Mpi& mpi_;
+  std::string stem_;
+  VtuWriter vtu_;
+  Integrals integrals_;
+  std::vector<double> latest_integrals_;
+  std::vector<Table> lines_, probes_;
+  std::vector<std::pair<double, std::string>> outputs_;     ///< time, path of the .pvtu
+  std::optional<RowFile> history_;                          ///< rank 0
+  std::vector<std::pair<std::string, std::string>> units_;  ///< column, unit
+};
+
+}  // namespace cobasis

@@ -1,0 +1,161 @@
+#include "app/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <iostream>
+
+#include "app/case.hpp"
+#include "app/output.hpp"
+#include "app/progress.hpp"
+#include "math/errors.hpp"
+#include "mesh/read_mesh.hpp"
+#include "solver/solver.hpp"
+
+namespace cobasis {
+namespace {
+
+struct Scene {
+  Setup setup;
+  Geometry geometry;
+  Mesh mesh;
+};
+
+Scene open_scene(const CommandLine& command, const Mpi& mpi) {
+  Scene scene{read_case(command.file, command.overrides), Geometry::plane, {}};
+  const Setup& setup = scene.setup;
+  MeshRequest request;
+  request.file = setup.mesh_file;
+  request.parameters = setup.mesh_parameters;
+  request.trust_geo = command.trust_geo;
+  request.dimension = !setup.scene ? 0 : *setup.scene == Geometry::plane ? 2 : 3;
+  request.periodic = periodic_pairs(setup);
+  scene.mesh = read_mesh(request, mpi);
+  scene.geometry = scene.mesh.dimension == 2 ? Geometry::plane : Geometry::space;
+  check_for_geometry(setup, scene.geometry);
+  return scene;
+}
+
+/// Counts down to the next multiple of an interval, and never misses the end.
+class Schedule {
+ public:
+  Schedule(double interval, double end) : interval_(interval), end_(end) {}
+  double next() const { return std::min(static_cast<double>(count_) * interval_, end_); }
+  /// Whether the time has come; if so, on to the next multiple after it.
+  bool due(double time) {
+    if (time < next()) return false;
+    while (static_cast<double>(count_) * interval_ <= time) ++count_;
+    return true;
+  }
+
+ private:
+  double interval_, end_;
+  std::int64_t count_ = 0;
+};
+
+/// Largest relative change of a phase's mass, what left through boundaries included.
+double mass_error(const std::vector<Column>& before, const std::vector<Column>& after) {
+  const auto is_mass_of = [](const std::string& name, const std::string& phase) {
+    const std::string suffix = ".mass." + phase;
+    return name.starts_with("outflow.") && name.ends_with(suffix);
+  };
+  double worst = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (!before[i].name.starts_with("mass.")) continue;
+    const std::string phase = before[i].name.substr(5);
+    double change = after[i].value - before[i].value;
+    for (const Column& column : after)
+      if (is_mass_of(column.name, phase)) change += column.value;
+    if (before[i].value > 0) worst = std::max(worst, std::fabs(change) / before[i].value);
+  }
+  return worst;
+}
+
+std::string describe(const Scene& scene, const Solver& solver) {
+  std::string text = fmt::format("{}\n{} scene, {} cells, {} equations per cell\n", scene.setup.title,
+                                 scene.geometry == Geometry::plane ? "plane" : "space", scene.mesh.n_global,
+                                 solver.equations());
+  for (const Phase& phase : solver.fields().phases) {
+    if (phase.is_void) {
+      text += fmt::format("  {}: void at {:g} Pa, no state of its own\n", phase.name, phase.void_pressure);
+      continue;
+    }
+    const std::size_t numbers = phase.conserved.size() + phase.primitive.size() + (phase.alpha.empty() ? 0 : 1);
+    text += fmt::format("  {}: {}, {} conserved and {} derived numbers, {} bytes per cell\n", phase.name,
+                        phase.kind == Kind::solid ? "solid" : "fluid", phase.conserved.size(),
+                        phase.primitive.size(), numbers * sizeof(double));
+  }
+  return text;
+}
+
+}  // namespace
+
+void run_case(const CommandLine& command, const Mpi& mpi) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const Scene scene = open_scene(command, mpi);
+  const Setup& setup = scene.setup;
+  Solver solver(setup, scene.geometry, scene.mesh, mpi);
+  Output output(setup, scene.geometry, scene.mesh, mpi);
+  const bool speaks = mpi.root() && !command.quiet;
+  if (speaks) {
+    for (const std::string& notice : scene.mesh.notices) std::cerr << "cobasis: " << notice << '\n';
+    std::cout << describe(scene, solver) << std::flush;
+  }
+
+  const double interval = setup.output.every.value_or(setup.end_time / setup.output.count.value_or(20));
+  Schedule outputs(interval, setup.end_time), rows(setup.end_time / 1000, setup.end_time);
+  Progress progress(std::cout, mpi.root() ? progress_style(command.quiet) : ProgressStyle::silent);
+  const auto cost = [&] {
+    const double evaluations = static_cast<double>(scene.mesh.n_global) * solver.equations() * static_cast<double>(solver.step());
+    return evaluations > 0 ? 1e9 * solver.clock().total / evaluations : 0;
+  };
+  const auto write_due = [&](bool last) {
+    const double time = solver.time();
+    if (outputs.due(time) || last) output.write(solver.snapshot());
+    const bool row = setup.history_every ? solver.step() % *setup.history_every == 0 : rows.due(time);
+    if (row || last)
+      output.history(solver.snapshot(output.needs_fields_for_history() ? Solver::Content::all : Solver::Content::alpha),
+                     solver.totals());
+  };
+
+  const std::vector<Column> initial = solver.totals();
+  write_due(false);
+  const auto done = [&] {
+    return solver.time() >= setup.end_time || (setup.max_steps && solver.step() >= *setup.max_steps);
+  };
+  while (!done()) {
+    solver.advance(outputs.next());
+    write_due(done());
+    progress.update({solver.time(), setup.end_time, solver.step(), seconds(), cost()});
+  }
+  progress.finish({solver.time(), setup.end_time, solver.step(), seconds(), cost()});
+  output.finish();
+
+  const double mixed = solver.mixed_share();
+  const double error = mass_error(initial, solver.totals());
+  const std::int64_t exchanges = mpi.sum(solver.exchange_counters().exchanges), kept = mpi.sum(solver.exchange_counters().kept),
+                     dust = mpi.sum(solver.exchange_counters().dust);
+  const double exchanged_volume = solver.exchanged_volume();
+  if (!mpi.root()) return;
+  if (!command.quiet) {
+    std::cout << fmt::format("volume exchange: {} exchanges of {:.6g} m^3 in all, {} kept, {} dust\n", exchanges,
+                             exchanged_volume, kept, dust);
+    for (const IntegralSetup& integral : setup.integrals)
+      std::cout << fmt::format("{} = {:.6g} m\n", integral.name, output.integral(integral.name));
+  }
+  std::cout << fmt::format(
+      "cobasis: steps={} time={:.9g} cells={} mixed={:.2f}% seconds={:.3f} pack={:.1f}% "
+      "ns_per_cell_equation_evaluation={:.3f} mass_error={:.2e}\n",
+      solver.step(), solver.time(), scene.mesh.n_global, 100 * mixed, solver.clock().total,
+      solver.clock().total > 0 ? 100 * solver.clock().kernels / solver.clock().total : 0, cost(), error);
+}
+
+void check_case(const CommandLine& command, const Mpi& mpi) {
+  const Scene scene = open_scene(command, mpi);
+  const Solver solver(scene.setup, scene.geometry, scene.mesh, mpi);
+  if (mpi.root()) std::cout << describe(scene, solver);
+}
+
+}  // namespace cobasis

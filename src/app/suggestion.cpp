@@ -1,0 +1,54 @@
+#include "app/suggestion.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace cobasis {
+namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// Letters to insert, delete, change or swap with their neighbour; upper and lower case are one.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  const auto same = [&](std::size_t i, std::size_t j) { return lower(a[i - 1]) == lower(b[j - 1]); };
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (same(i, j) ? 0 : 1)});
+      if (i > 1 && j > 1 && same(i, j - 1) && same(i - 1, j)) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  }
+  return d[a.size()][b.size()];
+}
+
+}  // namespace
+
+std::optional<std::string> nearest_name(std::string_view word, std::span<const std::string> candidates) {
+  constexpr std::size_t longest = 200;  // the table of distances stays small whatever a file holds
+  word = word.substr(0, longest);
+  std::optional<std::string> nearest;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (const std::string& candidate : candidates) {
+    const std::size_t d = distance(word, std::string_view(candidate).substr(0, longest));
+    if (d < least && d < std::max(word.size(), candidate.size())) {
+      least = d;
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
+
+std::string allowed_names(std::string_view word, std::span<const std::string> candidates) {
+  if (candidates.empty()) return "allowed: none";
+  const auto nearest = nearest_name(word, candidates);
+  return fmt::format("allowed: {}{}", fmt::join(candidates, ", "),
+                     nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : "");
+}
+
+}  // namespace cobasis

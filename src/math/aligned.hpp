@@ -1,0 +1,44 @@
+// Arrays for sweeps: aligned to cache lines, and raw memory that costs nothing until it is touched.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <vector>
+
+namespace cobasis {
+
+inline constexpr std::size_t cache_line = 64;
+
+template <class T>
+struct AlignedAllocator {
+  using value_type = T;
+  AlignedAllocator() = default;
+  template <class U> AlignedAllocator(const AlignedAllocator<U>&) {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{cache_line})); }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t{cache_line}); }
+  template <class U> bool operator==(const AlignedAllocator<U>&) const { return true; }
+};
+
+template <class T> using AlignedVector = std::vector<T, AlignedAllocator<T>>;
+
+/// Uninitialised storage for n doubles; pages are taken from the system when they are first written.
+class RawStorage {
+ public:
+  RawStorage() = default;
+  explicit RawStorage(std::size_t n)
+      : data_(n == 0 ? nullptr : static_cast<double*>(std::aligned_alloc(cache_line, (n + 8) / 8 * cache_line))) {
+    if (n != 0 && !data_) throw std::bad_alloc();
+  }
+  double* data() { return data_.get(); }
+  const double* data() const { return data_.get(); }
+
+ private:
+  struct Free {
+    void operator()(double* p) const { std::free(p); }
+  };
+  std::unique_ptr<double, Free> data_;
+};
+
+}  // namespace cobasis

@@ -1,0 +1,126 @@
+// What faces do to cells: every cell gathers from its faces in its own fixed order, so that the same bits come out for any
+// partition. Also the other direction of the conversion: conserved to primitive, with the one evaluation of EOS and stress.
+#pragma once
+
+#include "solver/face_sweep.hpp"
+
+namespace cobasis {
+
+/// Owned cells whose state left the admissible set: rho <= 0, p <= the EOS's lowest pressure, det e <= 0, or not a number.
+using BadCells = std::vector<std::int32_t>;
+
+/// Primitive state of the listed cells. `n` need not be a multiple of the pack width; the list is padded to one.
+template <class G, Kind K, class Real, class EquationOfState>
+void primitives(Phase& phase, const EquationOfState& eos, const AlignedVector<std::int32_t>& cells, std::int32_t n,
+                BadCells& bad) {
+  using L = Layout<G, K>;
+  for (std::int32_t i = 0; i < n; i += lanes<Real>) {
+    const Indices<Real> at = load_indices<Real>(&cells[i]);
+    const auto conserved = [&](int c) { return gather<Real>(phase.conserved[c].data(), at); };
+    const auto keep = [&](int c, const Real& value) { scatter(value, phase.primitive[c].data(), at); };
+    const Real mass = conserved(L::mass);
+    const Real alpha = phase.alpha.empty() ? Real(1.0) : gather<Real>(phase.alpha.data(), at);
+    const Real rho = mass / alpha;
+    const Real E = conserved(L::energy) / mass;
+    Vector<G, Real> u;
+    u.x = conserved(L::momentum) / mass, u.y = conserved(L::momentum + 1) / mass;
+    if constexpr (G::dimension == 3) u.z = conserved(L::momentum + 2) / mass;
+
+    Real e_h = E - 0.5 * dot(u, u);
+    Mask<Real> good = rho > Real(0.0);
+    if constexpr (K == Kind::solid) {
+      const Cobasis<G, Real> e = load_cobasis<G, Real>(phase, at);
+      good = good && determinant(e) > Real(0.0);
+      const Symmetric<G, Real> g = normalised_metric(e);
+      e_h = e_h - elastic_energy(phase.material, g);
+      keep(L::metric, g.xx), keep(L::metric + 1, g.yy), keep(L::metric + 2, g.zz), keep(L::metric + 3, g.xy);
+      if constexpr (G::dimension == 3) keep(L::metric + 4, g.xz), keep(L::metric + 5, g.yz);
+    }
+    const Real p = eos.pressure(rho, e_h);
+    good = good && p > Real(eos.lowest_pressure());
+    if (any(!good)) [[unlikely]] {
+      for (int j = 0; j < lanes<Real>; ++j)
+        if (!lane(good, j) && i + j < n) bad.push_back(at[j]);
+    }
+    keep(L::rho, rho);
+    keep(L::u, u.x), keep(L::u + 1, u.y);
+    if constexpr (G::dimension == 3) keep(L::u + 2, u.z);
+    keep(L::p, p);
+    keep(L::ch2, eos.sound_speed_squared(rho, p));
+    keep(L::E, E);
+  }
+}
+
+/// 2 V / sum over faces of A lambda, the smallest over the listed cells [s]; 0 if a wave speed is not a real number.
+template <class Real>
+double largest_step(const Faces& faces, const AlignedVector<double>& volume, const AlignedVector<std::int32_t>& cells,
+                    std::int32_t n) {
+  Real smallest(infinity);
+  for (std::int32_t i = 0; i < n; i += lanes<Real>) {
+    const Indices<Real> at = load_indices<Real>(&cells[i]);
+    Real sum(0.0);
+    for (int j = 0; j < faces.max_cell_faces; ++j) {
+      Indices<Real> face = lookup<Real>(&faces.cell_faces[static_cast<std::size_t>(j) * faces.cell_stride], at);
+      for (auto& f : face) f >>= 1;
+      sum = sum + gather<Real>(faces.area.data(), face) * gather<Real>(faces.fastest.data(), face);
+    }
+    const Real step = 2.0 * gather<Real>(volume.data(), at) / sum;
+    if (any(step != step)) [[unlikely]] return 0;
+    smallest = smaller(smallest, step);
+  }
+  double result = infinity;
+  for (int j = 0; j < lanes<Real>; ++j) result = smaller(result, lane(smallest, j));
+  return result;
+}
+
+/// Advances a phase in the listed owned cells by dt. Mixed: the volume fraction changes too, and contacts do work.
+template <class G, Kind K, class Real, bool Mixed>
+void update(const Faces& faces, const AlignedVector<double>& volume, Phase& phase,
+            const AlignedVector<std::int32_t>& cells, std::int32_t n, double dt) {
+  using L = Layout<G, K>;
+  const std::int32_t first_mixed = first_mixed_slot(faces);
+  for (std::int32_t i = 0; i < n; i += lanes<Real>) {
+    const Indices<Real> at = load_indices<Real>(&cells[i]);
+    std::array<Real, L::n_conserved> change;
+    change.fill(Real(0.0));
+    Real alpha_gain(0.0);
+    for (int j = 0; j < faces.max_cell_faces; ++j) {
+      const Indices<Real> entry = lookup<Real>(&faces.cell_faces[static_cast<std::size_t>(j) * faces.cell_stride], at);
+      Indices<Real> flux_at, cobasis_at, gain_at;
+      std::array<double, lanes<Real>> sign;
+      for (int k = 0; k < lanes<Real>; ++k) {
+        const std::int32_t slot = phase.lists.slot_of_face[entry[k] >> 1], side = entry[k] & 1;
+        flux_at[k] = slot_base(slot, L::n_flux);
+        cobasis_at[k] = flux_at[k] + side * L::n_cobasis * pack_width;
+        if constexpr (Mixed) gain_at[k] = slot_base(gain_slot(slot, first_mixed), L::n_gain) + side * L::gain_side * pack_width;
+        sign[k] = side ? 1 : -1;
+      }
+      const Real direction = load<Real>(sign.data());
+      const double* flux = phase.flux.data();
+      for (int c = 0; c < L::cobasis; ++c)
+        change[c] = change[c] + direction * gather<Real>(flux + c * pack_width, flux_at);
+      for (int c = 0; c < L::n_cobasis; ++c)
+        change[L::cobasis + c] =
+            change[L::cobasis + c] - gather<Real>(flux + (L::flux_cobasis[0] + c) * pack_width, cobasis_at);
+      if constexpr (Mixed) {
+        const double* gain = phase.gain.data();
+        alpha_gain = alpha_gain + gather<Real>(gain, gain_at);
+        for (int c = L::momentum; c <= L::energy; ++c)
+          change[c] = change[c] + gather<Real>(gain + c * pack_width, gain_at);
+      }
+    }
+    const Real rate = dt / gather<Real>(volume.data(), at);
+    Real cobasis_rate = rate;
+    if constexpr (Mixed) {
+      const Real alpha = gather<Real>(phase.alpha.data(), at) + rate * alpha_gain;
+      scatter(alpha, phase.alpha.data(), at);
+      cobasis_rate = select(alpha != Real(0.0), rate / alpha, Real(0.0));
+    }
+    for (int c = 0; c < L::n_conserved; ++c) {
+      double* const to = phase.conserved[c].data();
+      scatter(gather<Real>(to, at) + (c < L::cobasis ? rate : cobasis_rate) * change[c], to, at);
+    }
+  }
+}
+
+}  // namespace cobasis

@@ -1,0 +1,129 @@
+// What a run tells of itself: snapshots, totals, shares.
+#include "solver/solver.hpp"
+
+namespace cobasis {
+namespace {
+
+constexpr const char* axis_names[] = {"x", "y", "z"};
+
+Symmetric<Space, double> metric_of(const Phase& phase, int dimension, std::int32_t cell) {
+  const auto g = [&](int c) { return phase.primitive[4 + dimension + c][cell]; };
+  return dimension == 2 ? Symmetric<Space, double>{g(0), g(1), g(2), g(3), 0, 0}
+                        : Symmetric<Space, double>{g(0), g(1), g(2), g(3), g(4), g(5)};
+}
+
+}  // namespace
+
+const ExchangeCounters& Solver::exchange_counters() const {
+  static const ExchangeCounters none;
+  return exchange_ ? exchange_->counters() : none;
+}
+
+double Solver::exchanged_volume() const {
+  return exchange_ ? mpi_.exact_sum(exchange_->volume_of_cell()) : 0;
+}
+
+double Solver::mixed_share() const {
+  std::int64_t mixed = 0;
+  for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) mixed += fields_.pure[cell] < 0;
+  return static_cast<double>(mpi_.sum(mixed)) / static_cast<double>(mesh_.n_global);
+}
+
+int Solver::equations() const {
+  int n = fields_.n_phases() - 1;
+  for (const Phase& phase : fields_.phases) n += phase.n_conserved();
+  return n;
+}
+
+Snapshot Solver::snapshot(Content content) const {
+  const std::int32_t n = mesh_.n_owned;
+  const int D = fields_.dimension;
+  Snapshot snapshot{step_, time_, last_dt_, {}};
+  for (const Phase& phase : fields_.phases) {
+    PhaseSnapshot& out = snapshot.phases.emplace_back();
+    out.name = phase.name;
+    out.is_void = phase.is_void;
+    out.is_solid = !phase.is_void && phase.kind == Kind::solid;
+    out.rho0 = phase.material.rho0;
+    if (fields_.multiphase()) out.alpha.assign(phase.alpha.begin(), phase.alpha.begin() + n);
+    else out.alpha.assign(n, 1);
+    if (phase.is_void || content == Content::alpha) continue;
+    for (auto* field : {&out.density, &out.pressure, &out.energy}) field->assign(n, 0);
+    for (auto& component : out.velocity) component.assign(n, 0);
+    for (auto& component : out.stress) component.assign(n, 0);
+    if (out.is_solid) {
+      out.elastic_energy.assign(n, 0);
+      for (auto& component : out.cobasis) component.assign(n, 0);
+    }
+    for (std::int32_t cell = 0; cell < n; ++cell) {
+      if (!(out.alpha[cell] > 0)) continue;
+      const auto primitive = [&](int c) { return phase.primitive[c][cell]; };
+      const double rho = primitive(0), p = primitive(1 + D);
+      out.density[cell] = rho;
+      out.pressure[cell] = p;
+      out.energy[cell] = primitive(3 + D);
+      for (int i = 0; i < D; ++i) out.velocity[i][cell] = primitive(1 + i);
+      for (int i = 0; i < 3; ++i) out.stress[i][cell] = -p;
+      if (!out.is_solid) continue;
+      const Symmetric<Space, double> g = metric_of(phase, D, cell);
+      const Symmetric<Space, double> S = deviatoric_stress(phase.material, rho, g);
+      const double s[] = {S.xx, S.yy, S.zz, S.xy, S.yz, S.xz};
+      for (int i = 0; i < 6; ++i) out.stress[i][cell] += s[i];
+      out.elastic_energy[cell] = elastic_energy(phase.material, g);
+      constexpr int plane_component[] = {0, 1, 3, 4, 8};
+      for (int c = fields_.first_cobasis(); c < phase.n_conserved(); ++c) {
+        const int i = c - fields_.first_cobasis();
+        out.cobasis[D == 2 ? plane_component[i] : i][cell] = phase.conserved[c][cell];
+      }
+    }
+  }
+  return snapshot;
+}
+
+std::vector<Column> Solver::totals() const {
+  std::vector<Column> columns;
+  std::vector<double> values(mesh_.n_owned);
+  const auto total = [&](std::string name, std::string unit, auto&& of_cell) {
+    for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) values[cell] = of_cell(cell);
+    columns.push_back({std::move(name), std::move(unit), mpi_.exact_sum(values)});
+  };
+  const int D = fields_.dimension;
+  for (const Phase& phase : fields_.phases) {
+    if (fields_.multiphase())
+      total("volume." + phase.name, "m^3", [&](std::int32_t c) { return phase.alpha[c] * fields_.volume[c]; });
+    if (phase.is_void) continue;
+    const auto conserved = [&](int i) {
+      return [&, i](std::int32_t c) { return phase.conserved[i][c] * fields_.volume[c]; };
+    };
+    total("mass." + phase.name, "kg", conserved(0));
+    for (int i = 0; i < D; ++i) total("momentum." + phase.name + "." + axis_names[i], "kg m/s", conserved(1 + i));
+    total("energy." + phase.name, "J", conserved(1 + D));
+    const auto present = [&](std::int32_t c) { return !fields_.multiphase() || phase.alpha[c] > 0; };
+    total("kinetic." + phase.name, "J", [&](std::int32_t c) {
+      double u2 = 0;
+      for (int i = 0; i < D; ++i) u2 += phase.primitive[1 + i][c] * phase.primitive[1 + i][c];
+      return present(c) ? 0.5 * u2 * phase.conserved[0][c] * fields_.volume[c] : 0;
+    });
+    if (phase.kind == Kind::solid)
+      total("elastic." + phase.name, "J", [&](std::int32_t c) {
+        return present(c) ? elastic_energy(phase.material, metric_of(phase, D, c)) * phase.conserved[0][c] * fields_.volume[c] : 0;
+      });
+  }
+  for (const BoundaryGroup& group : mesh_.boundary_groups) {
+    const auto outflow = [&](int k, int component, const std::string& name, const std::string& unit) {
+      const double* booked = booked_[k][component].data() - mesh_.first_boundary_face();
+      columns.push_back({"outflow." + group.name + "." + name, unit,
+                         mpi_.exact_sum({booked + group.first, booked + group.last})});
+    };
+    for (int k = 0; k < fields_.n_phases(); ++k) {
+      const std::string& phase = fields_.phases[k].name;
+      if (fields_.phases[k].is_void) continue;
+      outflow(k, 0, "mass." + phase, "kg");
+      for (int i = 0; i < D; ++i) outflow(k, 1 + i, "momentum." + phase + "." + axis_names[i], "kg m/s");
+      outflow(k, 1 + D, "energy." + phase, "J");
+    }
+  }
+  return columns;
+}
+
+}  // namespace cobasis

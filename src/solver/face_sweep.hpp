@@ -1,0 +1,367 @@
+// What a face does: load both sides, turn them into its frame, solve the longitudinal and the shear problem, turn back,
+// store. One template for each situation; lists of faces keep the lanes of a pack full.
+#pragma once
+
+#include "physics/cobasis_flux.hpp"
+#include "physics/longitudinal.hpp"
+#include "physics/shear.hpp"
+#include "solver/faces.hpp"
+#include "solver/field.hpp"
+
+namespace cobasis {
+
+/// Faces of one ordered pair of phases (l left, m right, l != m) with their S_lm. For a void partner `side` says on
+/// which side the material is (0 left, 1 right).
+struct PairList {
+  AlignedVector<std::int32_t> face;
+  AlignedVector<double> share;
+  AlignedVector<std::int32_t> side;
+};
+
+template <class G, class Real>
+Vector<G, Real> load_vector(const std::vector<AlignedVector<double>>& components, int first, const Indices<Real>& at) {
+  Vector<G, Real> v;
+  v.x = gather<Real>(components[first].data(), at);
+  v.y = gather<Real>(components[first + 1].data(), at);
+  if constexpr (G::dimension == 3) v.z = gather<Real>(components[first + 2].data(), at);
+  return v;
+}
+
+template <class G, class Real>
+Cobasis<G, Real> load_cobasis(const Phase& phase, const Indices<Real>& at) {
+  const auto component = [&](int c) {
+    return gather<Real>(phase.conserved[Layout<G, Kind::solid>::cobasis + c].data(), at);
+  };
+  if constexpr (G::dimension == 2) {
+    return {{component(0), component(1), {}}, {component(2), component(3), {}}, {{}, {}, component(4)}};
+  } else {
+    return {{component(0), component(1), component(2)},
+            {component(3), component(4), component(5)},
+            {component(6), component(7), component(8)}};
+  }
+}
+
+/// Calls f(component, value) for the components of a cobasis that exist in the geometry.
+template <class G, class Real, class F>
+void for_each_component(const Cobasis<G, Real>& e, F&& f) {
+  f(0, e.e1.x), f(1, e.e1.y);
+  if constexpr (G::dimension == 2) {
+    f(2, e.e2.x), f(3, e.e2.y), f(4, e.e3.z);
+  } else {
+    f(2, e.e1.z), f(3, e.e2.x), f(4, e.e2.y), f(5, e.e2.z), f(6, e.e3.x), f(7, e.e3.y), f(8, e.e3.z);
+  }
+}
+
+template <class G, Kind K, class Real>
+Face<G, K, Real> load_face_state(const Phase& phase, const Indices<Real>& cell, const Frame<G, Real>& frame) {
+  using L = Layout<G, K>;
+  const auto component = [&](int c) { return gather<Real>(phase.primitive[c].data(), cell); };
+  FluidState<G, Real> fluid{component(L::rho), load_vector<G, Real>(phase.primitive, L::u, cell), component(L::p),
+                            component(L::ch2), component(L::E)};
+  if constexpr (K == Kind::fluid) {
+    return face_state(fluid, frame);
+  } else {
+    SolidState<G, Real> solid{fluid, {}};
+    solid.g.xx = component(L::metric), solid.g.yy = component(L::metric + 1), solid.g.zz = component(L::metric + 2);
+    solid.g.xy = component(L::metric + 3);
+    if constexpr (G::dimension == 3) {
+      solid.g.xz = component(L::metric + 4), solid.g.yz = component(L::metric + 5);
+    }
+    return face_state(phase.material, solid, frame);
+  }
+}
+
+/// The slots of one pack in one buffer: component c of lane i at data[at[i] + c * pack_width].
+template <class Real>
+struct SlotPack {
+  double* data;
+  Indices<Real> at;
+
+  void add(int c, const Real& value) const {
+    double* to = data + c * pack_width;
+    scatter(gather<Real>(to, at) + value, to, at);
+  }
+  Real read(int c) const { return gather<Real>(data + c * pack_width, at); }
+};
+
+template <class Real>
+SlotPack<Real> slot_pack(RawStorage& buffer, int n, const Indices<Real>& slots) {
+  SlotPack<Real> pack{buffer.data(), {}};
+  for (int i = 0; i < lanes<Real>; ++i) pack.at[i] = slot_base(slots[i], n);
+  return pack;
+}
+
+/// Mixed slots have their own numbering in the buffers that pure faces do not need.
+inline std::int32_t first_mixed_slot(const Faces& faces) { return pack_width + (faces.n + 4 * pack_width) / pack_width * pack_width; }
+inline std::int32_t gain_slot(std::int32_t slot, std::int32_t first_mixed) {
+  return slot < first_mixed ? 0 : slot - first_mixed + pack_width;
+}
+
+/// A face raises its fastest signal; several phases and pairs may speak for it.
+template <class Real>
+void raise_fastest(Faces& faces, const Indices<Real>& at, const Real& speed) {
+  scatter(larger(gather<Real>(faces.fastest.data(), at), speed), faces.fastest.data(), at);
+}
+
+enum class Beyond { cell, mirror };  ///< what lies right of a face: another cell, or the mirror image of the left one
+
+/// Riemann problem of a phase with itself. Pure: the whole face. Mixed: its share S_kk (possibly 0); the traction and
+/// speeds of both sides are kept for the pairs that the face's phases form.
+template <class G, Kind K, class Real, bool Mixed, Beyond B>
+void sweep_same(Faces& faces, Phase& phase, Segment segment) {
+  using L = Layout<G, K>;
+  const AlignedVector<std::int32_t>& list = Mixed ? phase.lists.mixed : phase.lists.pure;
+  const std::int32_t first_slot = Mixed ? first_mixed_slot(faces) : pack_width;
+  for (std::int32_t i = segment.first; i < segment.last; i += lanes<Real>) {
+    const Indices<Real> at = load_indices<Real>(&list[i]);
+    Indices<Real> left = lookup<Real>(faces.left.data(), at), right = lookup<Real>(faces.right.data(), at);
+    if constexpr (Mixed) {
+      for (int j = 0; j < lanes<Real>; ++j) {  // where the phase is absent, the present side's state stands in, unused
+        if (!(phase.alpha[left[j]] > 0)) left[j] = right[j];
+        if (!(phase.alpha[right[j]] > 0)) right[j] = left[j];
+      }
+    }
+    const Frame<G, Real> frame = load_frame<G, Real>(faces, at);
+    const auto l = load_face_state<G, K, Real>(phase, left, frame);
+    Face<G, K, Real> r;
+    if constexpr (B == Beyond::mirror) r = mirrored(l);
+    else r = load_face_state<G, K, Real>(phase, right, frame);
+    raise_fastest(faces, at, larger(signal_speed(l), signal_speed(r)));
+
+    const LongitudinalStar<Real> star = longitudinal<Real>(l, r);
+    Flux<G, Real> flux = eulerian_flux<G>(star, l, r);
+    Real weight = gather<Real>(faces.area.data(), at);
+    if constexpr (Mixed) weight = weight * load<Real>(&phase.lists.mixed_share[i]);
+
+    const std::int32_t slot = first_slot + i;
+    double* const out = phase.flux.data() + slot_base(slot, L::n_flux);
+    if constexpr (K == Kind::solid) {
+      const ShearStar<G, Real> shear = bonded_shear(l, r);
+      flux.momentum = flux.momentum - shear.tau;
+      flux.energy = flux.energy - dot(shear.tau, shear.w_l);
+
+      const Cobasis<G, Real> e_l = load_cobasis<G, Real>(phase, left);
+      const Vector<G, Real> du_l = out_of_frame(
+          frame, Vec3{star.u_f - l.u.x, shear.w_l.y - l.u.y, shear.w_l.z - l.u.z});
+      const auto keep = [&](int side, const Cobasis<G, Real>& change) {
+        for_each_component(change, [&](int c, const Real& value) {
+          store(value, out + (L::flux_cobasis[side] + c) * pack_width);
+        });
+      };
+      if constexpr (B == Beyond::mirror) {
+        keep(0, weight * fluctuation(star.u_f, e_l, e_l, du_l, frame));
+      } else {
+        const Cobasis<G, Real> e_r = load_cobasis<G, Real>(phase, right);
+        const Cobasis<G, Real> e_f = stretched(upwind(star.from_left, e_l, e_r), frame, star.r);
+        const Vector<G, Real> du_r = out_of_frame(
+            frame, Vec3{star.u_f - r.u.x, shear.w_r.y - r.u.y, shear.w_r.z - r.u.z});
+        keep(0, weight * fluctuation(star.u_f, e_f, e_l, du_l, frame));
+        keep(1, (-weight) * fluctuation(star.u_f, e_f, e_r, du_r, frame));
+      }
+    }
+    const Vector<G, Real> momentum = out_of_frame(frame, flux.momentum);
+    store(weight * flux.mass, out + L::mass * pack_width);
+    store(weight * momentum.x, out + L::momentum * pack_width);
+    store(weight * momentum.y, out + (L::momentum + 1) * pack_width);
+    if constexpr (G::dimension == 3) store(weight * momentum.z, out + (L::momentum + 2) * pack_width);
+    store(weight * flux.energy, out + L::energy * pack_width);
+
+    if constexpr (Mixed) {
+      const std::int32_t own = gain_slot(slot, first_slot);
+      double* const gain = phase.gain.data() + slot_base(own, L::n_gain);
+      for (int c = 0; c < L::n_gain; ++c) store(Real(0.0), gain + c * pack_width);
+      double* const sides = phase.sides.data() + slot_base(own, 2 * L::n_side);
+      const auto keep_side = [&](int side, const Face<G, K, Real>& s) {
+        double* const to = sides + side * L::n_side * pack_width;
+        store(s.P, to);
+        store(s.c1, to + pack_width);
+        if constexpr (K == Kind::solid) {
+          store(s.cs, to + 2 * pack_width);
+          store(s.tau.y, to + 3 * pack_width);
+          if constexpr (G::dimension == 3) store(s.tau.z, to + 4 * pack_width);
+        }
+      };
+      keep_side(0, l);
+      keep_side(1, r);
+    }
+  }
+}
+
+/// The state of one side as sweep_same left it, with density, velocity and energy from the cell.
+template <class G, Kind K, class Real>
+Face<G, K, Real> recall_side(const Phase& phase, const SlotPack<Real>& sides, int side, const Indices<Real>& cell,
+                             const Frame<G, Real>& frame) {
+  using L = Layout<G, K>;
+  const int c = side * L::n_side;
+  Face<G, K, Real> s;
+  s.rho = gather<Real>(phase.primitive[L::rho].data(), cell);
+  s.u = into_frame(frame, load_vector<G, Real>(phase.primitive, L::u, cell));
+  s.E = gather<Real>(phase.primitive[L::E].data(), cell);
+  s.P = sides.read(c);
+  s.c1 = sides.read(c + 1);
+  if constexpr (K == Kind::solid) {
+    s.cs = sides.read(c + 2);
+    s.tau.y = sides.read(c + 3);
+    if constexpr (G::dimension == 3) s.tau.z = sides.read(c + 4);
+  }
+  return s;
+}
+
+/// Everything a pair adds to the slots of one of its phases.
+template <class G, Kind K, class Real>
+struct PairSlots {
+  using L = Layout<G, K>;
+  SlotPack<Real> flux, gain, sides;
+
+  PairSlots(const Faces& faces, Phase& phase, const Indices<Real>& at) {
+    const Indices<Real> slots = lookup<Real>(phase.lists.slot_of_face.data(), at);
+    Indices<Real> own;
+    for (int i = 0; i < lanes<Real>; ++i) own[i] = gain_slot(slots[i], first_mixed_slot(faces));
+    flux = slot_pack<Real>(phase.flux, L::n_flux, slots);
+    gain = slot_pack<Real>(phase.gain, L::n_gain, own);
+    sides = slot_pack<Real>(phase.sides, 2 * L::n_side, own);
+  }
+
+  void add_flux(const Real& weight, const Flux<G, Real>& f, const Vector<G, Real>& momentum) const {
+    flux.add(L::mass, weight * f.mass);
+    flux.add(L::momentum, weight * momentum.x);
+    flux.add(L::momentum + 1, weight * momentum.y);
+    if constexpr (G::dimension == 3) flux.add(L::momentum + 2, weight * momentum.z);
+    flux.add(L::energy, weight * f.energy);
+  }
+  void add_gain(int side, const Real& alpha, const Vector<G, Real>& momentum, const Real& energy) const {
+    const int c = side * L::gain_side;
+    gain.add(c, alpha);
+    gain.add(c + 1, momentum.x);
+    gain.add(c + 2, momentum.y);
+    if constexpr (G::dimension == 3) gain.add(c + 3, momentum.z);
+    gain.add(c + 1 + G::dimension, energy);
+  }
+  void add_cobasis(int side, const Cobasis<G, Real>& change) const {
+    for_each_component(change, [&](int c, const Real& value) { flux.add(L::flux_cobasis[side] + c, value); });
+  }
+};
+
+template <class G, class Real, class FaceState, class Tangential>
+Vector<G, Real> velocity_jump(const Frame<G, Real>& frame, const FaceState& s, const Real& u, const Tangential& w) {
+  return out_of_frame(frame, Vec3{u - s.u.x, w.y - s.u.y, w.z - s.u.z});
+}
+
+enum class Tangent { free, bonded };  ///< sliding phases, a fluid or a void are free; solids that adhere are bonded
+
+/// Contact of two different phases, l left and m right, along the face normal.
+template <class G, Kind Kl, Kind Km, Tangent T, class Real>
+void sweep_pair(Faces& faces, Phase& phase_l, Phase& phase_m, const PairList& list, Segment segment) {
+  for (std::int32_t i = segment.first; i < segment.last; i += lanes<Real>) {
+    const Indices<Real> at = load_indices<Real>(&list.face[i]);
+    const Indices<Real> left = lookup<Real>(faces.left.data(), at), right = lookup<Real>(faces.right.data(), at);
+    const Frame<G, Real> frame = load_frame<G, Real>(faces, at);
+    const PairSlots<G, Kl, Real> slots_l(faces, phase_l, at);
+    const PairSlots<G, Km, Real> slots_m(faces, phase_m, at);
+    const auto l = recall_side<G, Kl, Real>(phase_l, slots_l.sides, 0, left, frame);
+    const auto m = recall_side<G, Km, Real>(phase_m, slots_m.sides, 1, right, frame);
+
+    const LongitudinalStar<Real> star = longitudinal<Real>(l, m);
+    const Flux<G, Real> flux = eulerian_flux<G>(star, l, m);
+    const Real weight = gather<Real>(faces.area.data(), at) * load<Real>(&list.share[i]);
+    const Real zero(0.0);
+    const Real weight_l = select(star.from_left, weight, zero), weight_m = select(star.from_left, zero, weight);
+    const Vector<G, Real> momentum = out_of_frame(frame, flux.momentum);
+    slots_l.add_flux(weight_l, flux, momentum);
+    slots_m.add_flux(weight_m, flux, momentum);
+
+    // Lagrangian part, in the one cell the contact moves into: the right one if u* > 0
+    const auto push = [&](int side, const Real& w) {
+      const Vector<G, Real> force = (w * star.P_star) * frame.n;
+      const Real work = w * star.P_star * star.u_star;
+      slots_l.add_gain(side, w * star.u_star, (-1.0) * force, -work);
+      slots_m.add_gain(side, -(w * star.u_star), force, work);
+    };
+    push(0, weight_m);
+    push(1, weight_l);
+
+    [[maybe_unused]] ShearStar<G, Real> shear;
+    if constexpr (T == Tangent::bonded) {
+      shear = bonded_shear(l, m);
+      const Vector<G, Real> force = weight * out_of_frame(frame, shear.tau);
+      slots_l.add_gain(0, zero, force, weight * dot(shear.tau, shear.w_l));
+      slots_m.add_gain(1, zero, (-1.0) * force, -(weight * dot(shear.tau, shear.w_r)));
+    } else {
+      if constexpr (Kl == Kind::solid) shear.w_l = free_surface_velocity(l, Real(1.0));
+      if constexpr (Km == Kind::solid) shear.w_r = free_surface_velocity(m, Real(-1.0));
+    }
+    if constexpr (Kl == Kind::solid) {
+      const Cobasis<G, Real> e = load_cobasis<G, Real>(phase_l, left), e_f = stretched(e, frame, star.r);
+      const Vector<G, Real> du = velocity_jump(frame, l, select(star.from_left, star.u_f, star.u_star), shear.w_l);
+      slots_l.add_cobasis(0, weight * fluctuation(select(star.from_left, star.u_f, zero), e_f, e, du, frame));
+      const Cobasis<G, Real> e_right = load_cobasis<G, Real>(phase_l, right);
+      slots_l.add_cobasis(1, (-weight_l) * invader_fluctuation(star.u_star, star.u_f, e_f, e_right, frame));
+    }
+    if constexpr (Km == Kind::solid) {
+      const Cobasis<G, Real> e = load_cobasis<G, Real>(phase_m, right), e_f = stretched(e, frame, star.r);
+      const Vector<G, Real> du = velocity_jump(frame, m, select(star.from_left, star.u_star, star.u_f), shear.w_r);
+      slots_m.add_cobasis(1, (-weight) * fluctuation(select(star.from_left, zero, star.u_f), e_f, e, du, frame));
+      const Cobasis<G, Real> e_left = load_cobasis<G, Real>(phase_m, left);
+      slots_m.add_cobasis(0, weight_m * invader_fluctuation(star.u_star, star.u_f, e_f, e_left, frame));
+    }
+  }
+}
+
+/// A material before a void at pressure p0: a free surface. Solved along the material's outward normal.
+template <class G, Kind K, class Real>
+void sweep_free_surface(Faces& faces, Phase& phase, double p0, const PairList& list, Segment segment) {
+  using L = Layout<G, K>;
+  for (std::int32_t i = segment.first; i < segment.last; i += lanes<Real>) {
+    const Indices<Real> at = load_indices<Real>(&list.face[i]);
+    Indices<Real> inside = lookup<Real>(faces.left.data(), at), outside = lookup<Real>(faces.right.data(), at);
+    std::array<double, lanes<Real>> sign;
+    for (int j = 0; j < lanes<Real>; ++j) {
+      sign[j] = list.side[i + j] ? -1 : 1;
+      if (list.side[i + j]) std::swap(inside[j], outside[j]);
+    }
+    Frame<G, Real> frame = load_frame<G, Real>(faces, at);
+    const Real outward = load<Real>(sign.data());
+    frame.n = outward * frame.n;
+    frame.t1 = outward * frame.t1;  // keeps the frame right-handed; only t1's line matters
+
+    PairSlots<G, K, Real> slots(faces, phase, at);
+    // own[s], other[s]: the same slots, with the sides exchanged where the material lies right of the face
+    const auto exchanged = [&](SlotPack<Real> pack, int distance) {
+      for (int j = 0; j < lanes<Real>; ++j) pack.at[j] += list.side[i + j] * distance * pack_width;
+      return pack;
+    };
+    PairSlots<G, K, Real> own = slots, other = slots;
+    own.sides = exchanged(slots.sides, L::n_side);
+    own.gain = exchanged(slots.gain, L::gain_side), other.gain = exchanged(slots.gain, -L::gain_side);
+    own.flux = exchanged(slots.flux, L::n_cobasis), other.flux = exchanged(slots.flux, -L::n_cobasis);
+
+    auto l = recall_side<G, K, Real>(phase, own.sides, 0, inside, frame);
+    if constexpr (K == Kind::solid) {  // stored in the face's own frame: sigma_12 keeps its sign, sigma_13 turns
+      if constexpr (G::dimension == 3) l.tau.z = outward * l.tau.z;
+    }
+    const LongitudinalStar<Real> star = free_surface<Real>(l, Real(p0));
+    const Flux<G, Real> flux = eulerian_flux<G>(star, l, l);
+    const Real weight = gather<Real>(faces.area.data(), at) * load<Real>(&list.share[i]);
+    const Real zero(0.0);
+    const Real advancing = select(star.from_left, weight, zero), retreating = select(star.from_left, zero, weight);
+    slots.add_flux(outward * advancing, flux, out_of_frame(frame, flux.momentum));
+
+    const auto push = [&](const PairSlots<G, K, Real>& to, int side, const Real& w) {
+      const Real force = -(w * star.P_star);
+      to.add_gain(side, w * star.u_star, force * frame.n, force * star.u_star);
+    };
+    push(own, 0, retreating);
+    push(other, 1, advancing);
+
+    if constexpr (K == Kind::solid) {
+      const Cobasis<G, Real> e = load_cobasis<G, Real>(phase, inside), e_f = stretched(e, frame, star.r);
+      const auto w_star = free_surface_velocity(l, Real(1.0));
+      const Vector<G, Real> du = velocity_jump(frame, l, select(star.from_left, star.u_f, star.u_star), w_star);
+      own.add_cobasis(0, weight * fluctuation(select(star.from_left, star.u_f, zero), e_f, e, du, frame));
+      const Cobasis<G, Real> e_outside = load_cobasis<G, Real>(phase, outside);
+      other.add_cobasis(1, (-advancing) * invader_fluctuation(star.u_star, star.u_f, e_f, e_outside, frame));
+    }
+  }
+}
+
+}  // namespace cobasis

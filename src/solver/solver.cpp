@@ -1,0 +1,336 @@
+#include "solver/solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "math/errors.hpp"
+
+namespace cobasis {
+namespace {
+
+constexpr double fragment = 1e-2;  // below this volume fraction an inadmissible state is given to a neighbour
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Adds the time until its end to a sum.
+class Timed {
+ public:
+  explicit Timed(double& sum) : sum_(sum), start_(seconds()) {}
+  ~Timed() { sum_ += seconds() - start_; }
+  Timed(const Timed&) = delete;
+  Timed& operator=(const Timed&) = delete;
+
+ private:
+  double& sum_;
+  double start_;
+};
+
+void fill_pack(CellList& list) {
+  const std::size_t n = list.size();
+  while (list.size() % pack_width != 0) list.push_back(list[n - 1]);
+}
+
+}  // namespace
+
+double Solver::advance(double until) {
+  const double start = seconds();
+  const bool multiphase = fields_.multiphase();
+  std::fill(faces_.fastest.begin(), faces_.fastest.end(), 0.0);
+  if (multiphase) interfaces_->clear(fields_);
+
+  send_halo();
+  sweep(Part::inside);
+  sweep(Part::mirror);
+  clock_.inside_swept = seconds() - start;
+  receive_halo();
+  clock_.halo_received = seconds() - start;
+  sweep(Part::halo);
+
+  if (multiphase) list_cells();
+  double step;
+  {
+    const Timed timed(clock_.kernels);
+    const auto count = static_cast<std::int32_t>(material_count_);
+    step = options_.scalar ? largest_step<double>(faces_, fields_.volume, material_cells_, count)
+                           : largest_step<Pack>(faces_, fields_.volume, material_cells_, count);
+  }
+  if (step == 0) find_undefined_speed();
+  step = mpi_.min(step);
+  if (step == 0) stop_unphysical();
+  const bool arrives = !(time_ + setup_.cfl * step < until);
+  const double dt = arrives ? until - time_ : setup_.cfl * step;
+
+  update_cells(dt);
+  book_boundaries(dt);
+  last_dt_ = dt;
+  time_ = arrives ? until : time_ + dt;
+  ++step_;
+  convert_owned(dt);
+  clock_.total += seconds() - start;
+  if (mpi_.any(!unphysical_.empty())) stop_unphysical();
+  return dt;
+}
+
+void Solver::sweep(Part part) {
+  if (fields_.multiphase()) interfaces_->sort(faces_, fields_, part);
+  const Timed timed(clock_.kernels);
+  const int n = fields_.n_phases();
+  const bool mirror = part == Part::mirror;
+  for (int k = 0; k < n; ++k) {
+    Phase& phase = fields_.phases[k];
+    if (phase.is_void) continue;
+    (mirror ? kernels_[k].sweep_pure_mirror : kernels_[k].sweep_pure)(faces_, phase, interfaces_->pure(k, part));
+    if (fields_.multiphase())
+      (mirror ? kernels_[k].sweep_mixed_mirror : kernels_[k].sweep_mixed)(faces_, phase, interfaces_->mixed(k, part));
+  }
+  for (int l = 0; l < n; ++l) {
+    for (int m = 0; m < n; ++m) {
+      const Segment segment = interfaces_->pair_segment(l, m, part);
+      if (l == m || segment.first == segment.last) continue;
+      const PairList& list = interfaces_->pair(l, m);
+      Phase& left = fields_.phases[l];
+      Phase& right = fields_.phases[m];
+      if (right.is_void) kernels_[l].sweep_free_surface(faces_, left, right.void_pressure, list, segment);
+      else if (left.is_void) kernels_[m].sweep_free_surface(faces_, right, left.void_pressure, list, segment);
+      else pair_kernels_[l * n + m](faces_, left, right, list, segment);
+    }
+  }
+}
+
+void Solver::send_halo() {
+  for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
+    std::vector<double>& out = halo_->outgoing(i);
+    out.clear();
+    for (const std::int32_t cell : mesh_.neighbours[i].send) {
+      if (fields_.multiphase())
+        for (const Phase& phase : fields_.phases) out.push_back(phase.alpha[cell]);
+      for (const Phase& phase : fields_.phases)
+        if (!fields_.multiphase() || phase.alpha[cell] > 0)
+          for (const auto& component : phase.conserved) out.push_back(component[cell]);
+    }
+  }
+  if (options_.before_halo_send) options_.before_halo_send();
+  halo_->start();
+}
+
+void Solver::receive_halo() {
+  halo_->finish();
+  if (mesh_.neighbours.empty()) return;
+  for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
+    const Neighbour& neighbour = mesh_.neighbours[i];
+    const double* in = halo_->incoming(i).data();
+    for (std::int32_t j = 0; j < neighbour.receive_count; ++j) {
+      const std::int32_t cell = neighbour.receive_first + j;
+      if (fields_.multiphase())
+        for (Phase& phase : fields_.phases) phase.alpha[cell] = *in++;
+      for (Phase& phase : fields_.phases)
+        if (!fields_.multiphase() || phase.alpha[cell] > 0)
+          for (auto& component : phase.conserved) component[cell] = *in++;
+      if (fields_.multiphase()) fields_.complete(cell);
+    }
+  }
+  BadCells ignored;  // the owner reports
+  for (int k = 0; k < fields_.n_phases(); ++k) {
+    Phase& phase = fields_.phases[k];
+    if (phase.is_void) continue;
+    scratch_cells_.clear();
+    for (std::int32_t cell = mesh_.n_owned; cell < mesh_.n_cells(); ++cell)
+      if (!fields_.multiphase() || phase.alpha[cell] > 0) scratch_cells_.push_back(cell);
+    const auto count = static_cast<std::int32_t>(scratch_cells_.size());
+    fill_pack(scratch_cells_);
+    const Timed timed(clock_.kernels);
+    kernels_[k].primitives(phase, scratch_cells_, count, ignored);
+  }
+}
+
+/// Which cells each phase is updated in: those inside the phase, and those where anything else is near.
+void Solver::list_cells() {
+  for (const std::int32_t cell : touched_cells_) touched_[cell] = 0;
+  touched_cells_.clear();
+  const auto touch = [&](std::int32_t cell) {
+    if (cell >= mesh_.n_owned || touched_[cell]) return;
+    touched_[cell] = 1;
+    touched_cells_.push_back(cell);
+  };
+  for (const std::int32_t face : interfaces_->mixed_faces()) {
+    touch(faces_.left[face]);
+    touch(faces_.right[face]);
+  }
+  const int n = fields_.n_phases();
+  for (int k = 0; k < n; ++k) {
+    pure_cells_[k].clear();
+    mixed_cells_[k].clear();
+  }
+  material_cells_.clear();
+  for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) {
+    const int only = fields_.pure[cell];
+    if (!touched_[cell] && fields_.phases[only].is_void) continue;
+    material_cells_.push_back(cell);
+    if (!touched_[cell]) {
+      pure_cells_[only].push_back(cell);
+      continue;
+    }
+    for (int k = 0; k < n; ++k) {
+      const Phase& phase = fields_.phases[k];
+      if (phase.is_void) continue;
+      bool acts = phase.alpha[cell] > 0;
+      for (int j = 0; j < faces_.max_cell_faces && !acts; ++j) {
+        const std::int32_t entry = faces_.cell_faces[static_cast<std::size_t>(j) * faces_.cell_stride + cell];
+        acts = phase.lists.slot_of_face[entry >> 1] != 0;
+      }
+      if (acts) mixed_cells_[k].push_back(cell);
+    }
+  }
+  material_count_ = material_cells_.size();
+  fill_pack(material_cells_);
+}
+
+void Solver::update_cells(double dt) {
+  const Timed timed(clock_.kernels);
+  for (int k = 0; k < fields_.n_phases(); ++k) {
+    Phase& phase = fields_.phases[k];
+    if (phase.is_void) continue;
+    for (const bool mixed : {false, true}) {
+      CellList& cells = mixed ? mixed_cells_[k] : pure_cells_[k];
+      const auto count = static_cast<std::int32_t>(fields_.multiphase() ? cells.size() : mesh_.n_owned);
+      fill_pack(cells);
+      (mixed ? kernels_[k].update_mixed : kernels_[k].update_pure)(faces_, fields_.volume, phase, cells,
+                                                                   mixed && !fields_.multiphase() ? 0 : count, dt);
+    }
+  }
+  if (fields_.multiphase())
+    for (const std::int32_t cell : touched_cells_) fields_.complete(cell);
+}
+
+void Solver::book_boundaries(double dt) {
+  const int D = fields_.dimension;
+  const std::int32_t first_mixed = first_mixed_slot(faces_);
+  for (int k = 0; k < fields_.n_phases(); ++k) {
+    const Phase& phase = fields_.phases[k];
+    if (phase.is_void) continue;
+    const PhaseKernels& kernels = kernels_[k];
+    for (std::int32_t i = 0; i < mesh_.n_boundary_faces; ++i) {
+      const std::int32_t slot = phase.lists.slot_of_face[mesh_.first_boundary_face() + i];
+      if (slot == 0) continue;
+      const double* flux = phase.flux.data() + slot_base(slot, kernels.n_flux);
+      for (int c = 0; c < D + 2; ++c) booked_[k][c][i] += dt * flux[c * pack_width];
+      if (slot < first_mixed) continue;
+      const double* gain = phase.gain.data() + slot_base(gain_slot(slot, first_mixed), kernels.n_gain);
+      for (int c = 1; c < D + 2; ++c) booked_[k][c][i] -= dt * gain[c * pack_width];
+    }
+  }
+}
+
+void Solver::convert_owned(double dt) {
+  const auto convert = [&](int k, CellList& cells) {
+    const auto count = static_cast<std::int32_t>(cells.size());
+    fill_pack(cells);
+    const Timed timed(clock_.kernels);
+    kernels_[k].primitives(fields_.phases[k], cells, count, bad_);
+  };
+  if (!fields_.multiphase()) {
+    bad_.clear();
+    const Timed timed(clock_.kernels);
+    kernels_[0].primitives(fields_.phases[0], material_cells_, static_cast<std::int32_t>(material_count_), bad_);
+    for (const std::int32_t cell : bad_) note_unphysical(0, cell);
+    return;
+  }
+
+  std::vector<std::pair<std::int32_t, int>> inadmissible;
+  for (int k = 0; k < fields_.n_phases(); ++k) {
+    const Phase& phase = fields_.phases[k];
+    if (phase.is_void) continue;
+    scratch_cells_.clear();
+    for (const CellList* cells : {&pure_cells_[k], &mixed_cells_[k]})
+      for (std::size_t i = 0; i < cells->size(); ++i)
+        if (phase.alpha[(*cells)[i]] > 0) scratch_cells_.push_back((*cells)[i]);
+    bad_.clear();
+    convert(k, scratch_cells_);
+    for (const std::int32_t cell : bad_) inadmissible.emplace_back(cell, k);
+  }
+  std::sort(inadmissible.begin(), inadmissible.end());
+  inadmissible.erase(std::unique(inadmissible.begin(), inadmissible.end()), inadmissible.end());
+
+  if (exchange_) {
+    std::vector<std::pair<std::int32_t, int>> fragments;
+    for (const auto& [cell, k] : inadmissible)
+      if (fields_.phases[k].alpha[cell] < fragment) fragments.emplace_back(cell, k);
+    const std::vector<std::int32_t>& exchanged = exchange_->run(mesh_, faces_, fields_, dt, fragments);
+    std::vector<std::pair<std::int32_t, int>> remaining;
+    for (const auto& entry : inadmissible)
+      if (!std::binary_search(exchanged.begin(), exchanged.end(), entry.first)) remaining.push_back(entry);
+    for (int k = 0; k < fields_.n_phases(); ++k) {
+      if (fields_.phases[k].is_void) continue;
+      scratch_cells_.clear();
+      for (const std::int32_t cell : exchanged)
+        if (fields_.phases[k].alpha[cell] > 0) scratch_cells_.push_back(cell);
+      bad_.clear();
+      convert(k, scratch_cells_);
+      for (const std::int32_t cell : bad_) remaining.emplace_back(cell, k);
+    }
+    inadmissible = std::move(remaining);
+  }
+  for (const auto& [cell, k] : inadmissible) note_unphysical(k, cell);
+}
+
+void Solver::note_unphysical(int k, std::int32_t cell) {
+  if (!unphysical_.empty() && unphysical_id_ <= mesh_.global_id[cell]) return;
+  unphysical_id_ = mesh_.global_id[cell];
+  const Phase& phase = fields_.phases[k];
+  const Point x = mesh_.centroid[cell];
+  const double alpha = phase.alpha.empty() ? 1 : phase.alpha[cell];
+  unphysical_ = fmt::format(
+      "step {}, time {:.9g} s: phase '{}' left its admissible states in cell {} at ({:.6g}, {:.6g}, {:.6g}): volume "
+      "fraction {:.6g}, density {:.6g} kg/m^3, pressure {:.6g} Pa",
+      step_, time_, phase.name, unphysical_id_, x.x, x.y, x.z, alpha, phase.primitive[0][cell],
+      phase.primitive[1 + fields_.dimension][cell]);
+  if (phase.kind == Kind::solid) {
+    std::string e;
+    for (int c = fields_.first_cobasis(); c < phase.n_conserved(); ++c)
+      e += fmt::format("{}{:.6g}", e.empty() ? "" : " ", phase.conserved[c][cell]);
+    unphysical_ += fmt::format(", cobasis ({})", e);
+  }
+}
+
+/// A wave speed that is not a real number: names the phase whose state in the cell, or beside it, makes it so.
+void Solver::find_undefined_speed() {
+  for (std::size_t i = 0; i < material_count_; ++i) {
+    const std::int32_t cell = material_cells_[i];
+    for (int j = 0; j < faces_.max_cell_faces; ++j) {
+      const std::int32_t face = faces_.cell_faces[static_cast<std::size_t>(j) * faces_.cell_stride + cell] >> 1;
+      if (faces_.fastest[face] == faces_.fastest[face]) continue;
+      int largest = -1;
+      for (int k = 0; k < fields_.n_phases(); ++k)
+        if (!fields_.phases[k].is_void &&
+            (largest < 0 || fields_.phases[k].alpha[cell] > fields_.phases[largest].alpha[cell]))
+          largest = k;
+      note_unphysical(largest, cell);
+      unphysical_ += "; a wave speed is not a real number";
+      return;
+    }
+  }
+}
+
+void Solver::stop_unphysical() const {
+  const bool own = !unphysical_.empty();
+  const double first = mpi_.min(own ? static_cast<double>(unphysical_id_) : infinity);
+  const bool speaks = own && static_cast<double>(unphysical_id_) == first;
+  const int speaker = static_cast<int>(mpi_.max(speaks ? mpi_.rank() : -1));
+  std::string text = unphysical_;
+  if (speaker != 0) {
+    if (mpi_.rank() == speaker) mpi_.send(0, std::vector<char>(text.begin(), text.end()));
+    if (mpi_.root()) {
+      const std::vector<char> bytes = mpi_.receive(speaker);
+      text.assign(bytes.begin(), bytes.end());
+    }
+  }
+  mpi_.broadcast(text);
+  throw Unphysical(text);
+}
+
+}  // namespace cobasis

@@ -1,0 +1,112 @@
+// The time step of section 4.4 of the paper, with all sub-systems from one state: primitives, faces, cells.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "mesh/mpi.hpp"
+#include "mesh/neighbour_exchange.hpp"
+#include "solver/interfaces.hpp"
+#include "solver/kernels.hpp"
+#include "solver/setup.hpp"
+#include "solver/snapshot.hpp"
+#include "solver/volume_exchange.hpp"
+
+namespace cobasis {
+
+/// The state left the admissible set; the text says cell, place, phase, time and state. All ranks throw together.
+struct Unphysical : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct SolverOptions {
+  bool scalar = false;                     ///< kernels one cell or face at a time, to compare with
+  std::function<void()> before_halo_send;  ///< called in every step before this rank sends its halo
+};
+
+/// Seconds since the start of the last step, and sums over all steps.
+struct StepClock {
+  double inside_swept = 0, halo_received = 0;  ///< of the last step
+  double total = 0, kernels = 0;               ///< summed; kernels: inside sweeps, updates and conversions
+};
+
+class Solver {
+ public:
+  /// The mesh must outlive the solver. Throws InputError where case and mesh do not fit. Collective.
+  Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mpi& mpi, SolverOptions options = {});
+
+  /// One step, not beyond the time `until` [s], which is hit exactly; returns its length. Collective. Throws Unphysical.
+  double advance(double until);
+
+  double time() const { return time_; }
+  std::int64_t step() const { return step_; }
+  const Fields& fields() const { return fields_; }
+  const StepClock& clock() const { return clock_; }
+  const ExchangeCounters& exchange_counters() const;  ///< of this rank
+  /// Sum of the volumes exchanged so far [m^3]. Collective.
+  double exchanged_volume() const;
+  /// Share of this rank's cells with more than one phase, over all ranks. Collective.
+  double mixed_share() const;
+  /// Equations per cell: 9 of a plane solid, 4 of a plane fluid, 14 and 5 in space, and alpha for all phases but one.
+  int equations() const;
+
+  enum class Content { all, alpha };
+  Snapshot snapshot(Content content = Content::all) const;
+  /// Conserved totals of the domain and what left it through each boundary: mass, momentum, energy of each phase, and the
+  /// volume of each. Same bits for any number of ranks. Collective.
+  std::vector<Column> totals() const;
+
+ private:
+  void allocate();
+  void set_initial_state();
+  void set_state(int k, std::int32_t cell, double alpha, const PhaseState& state, const Point& x);
+  void sweep(Part part);
+  void send_halo();
+  void receive_halo();
+  void list_cells();
+  void update_cells(double dt);
+  void book_boundaries(double dt);
+  void convert_owned(double dt);
+  void note_unphysical(int k, std::int32_t cell);
+  void find_undefined_speed();
+  [[noreturn]] void stop_unphysical() const;
+
+  Setup setup_;
+  Geometry geometry_;
+  const Mesh& mesh_;
+  const Mpi& mpi_;
+  SolverOptions options_;
+  std::vector<Boundary> boundaries_;
+
+  Faces faces_;
+  Fields fields_;
+  std::vector<PhaseKernels> kernels_;      // per phase
+  std::vector<PairKernel> pair_kernels_;   // [l * n + m], null with a void
+  std::optional<Interfaces> interfaces_;
+  std::optional<VolumeExchange> exchange_;
+  std::unique_ptr<NeighbourExchange> halo_;
+
+  std::vector<CellList> pure_cells_, mixed_cells_;  // per phase: owned cells to update in the present step
+  CellList material_cells_;                         // owned cells that are not void or have a neighbour that is not, filled to a pack
+  std::size_t material_count_ = 0;                  // of these, without the filling
+  std::vector<std::int32_t> touched_cells_;         // owned cells with a face that is not pure
+  std::vector<std::uint8_t> touched_;
+  CellList scratch_cells_;
+  BadCells bad_;
+  std::vector<std::vector<std::vector<double>>> booked_;  // [phase][mass, momentum, energy][boundary face]
+  std::string unphysical_;                                // this rank's report
+  std::int64_t unphysical_id_ = 0;                        // its cell's global id
+
+  double time_ = 0;
+  std::int64_t step_ = 0;
+  double last_dt_ = 0;
+  StepClock clock_;
+};
+
+}  // namespace cobasis

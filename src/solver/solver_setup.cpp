@@ -1,0 +1,232 @@
+// From a case and a mesh to a solver at time zero.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "math/errors.hpp"
+#include "solver/boundary.hpp"
+#include "solver/initial_condition.hpp"
+#include "solver/solver.hpp"
+
+namespace cobasis {
+namespace {
+
+using Cobasis9 = std::array<std::array<double, 3>, 3>;
+
+double determinant(const Cobasis9& e) {
+  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+}
+
+/// The conserved state per volume of the phase: rho, rho u, rho E, e.
+template <class G>
+std::vector<double> conserved_state(const PhaseSetup& phase, const PhaseState& state, const Point& x) {
+  double rho = state.density.value_or(phase.density.value_or(phase.is_solid() ? phase.elastic->rho0 : 0));
+  Cobasis9 rows{};  // x, y, z components of (e^1, e^2, e^3)
+  if (phase.is_solid()) {
+    if (state.cobasis) {
+      rows = *state.cobasis;
+      if (!state.density) rho = phase.elastic->rho0 * determinant(rows);
+    } else {
+      for (int i = 0; i < 3; ++i) rows[i][i] = std::cbrt(rho / phase.elastic->rho0);
+    }
+  }
+  Vector<G, double> u;
+  u.x = state.velocity[0](x), u.y = state.velocity[1](x);
+  if constexpr (G::dimension == 3) u.z = state.velocity[2](x);
+  double E = 0.5 * dot(u, u) + std::visit([&](const auto& eos) { return eos.energy(rho, state.pressure); }, phase.eos);
+  std::vector<double> q{rho, rho * u.x, rho * u.y};
+  if constexpr (G::dimension == 3) q.push_back(rho * u.z);
+  if (!phase.is_solid()) {
+    q.push_back(rho * E);
+    return q;
+  }
+  std::vector<double> components;
+  Cobasis<G, double> e;
+  if constexpr (G::dimension == 2) {
+    e = {{rows[0][0], rows[1][0], {}}, {rows[0][1], rows[1][1], {}}, {{}, {}, rows[2][2]}};
+  } else {
+    e = {{rows[0][0], rows[1][0], rows[2][0]}, {rows[0][1], rows[1][1], rows[2][1]}, {rows[0][2], rows[1][2], rows[2][2]}};
+  }
+  E += elastic_energy(*phase.elastic, normalised_metric(e));
+  q.push_back(rho * E);
+  q.resize(q.size() + G::n_cobasis);
+  for_each_component(e, [&](int c, double value) { q[q.size() - G::n_cobasis + c] = value; });
+  return q;
+}
+
+template <class G>
+void pick_kernels(const Setup& setup, bool scalar, std::vector<PhaseKernels>& phases, std::vector<PairKernel>& pairs) {
+  const int n = static_cast<int>(setup.phases.size());
+  const auto kind = [&](int k) { return setup.phases[k].is_solid() ? Kind::solid : Kind::fluid; };
+  phases.resize(n);
+  pairs.assign(n * n, nullptr);
+  for (int l = 0; l < n; ++l) {
+    if (setup.phases[l].is_void()) continue;
+    phases[l] = scalar ? phase_kernels<G, double>(kind(l)) : phase_kernels<G, Pack>(kind(l));
+    for (int m = 0; m < n; ++m) {
+      if (m == l || setup.phases[m].is_void()) continue;
+      const Tangent tangent = setup.contact(l, m) == Contact::adherence ? Tangent::bonded : Tangent::free;
+      pairs[l * n + m] = scalar ? pair_kernel<G, double>(kind(l), kind(m), tangent) : pair_kernel<G, Pack>(kind(l), kind(m), tangent);
+    }
+  }
+}
+
+}  // namespace
+
+Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mpi& mpi, SolverOptions options)
+    : setup_(setup), geometry_(geometry), mesh_(mesh), mpi_(mpi), options_(std::move(options)) {
+  boundaries_ = resolve_boundaries(setup_, mesh_);
+  faces_ = make_faces(mesh_);
+  std::vector<FaceRange> inside{{0, mesh_.n_interior_faces}}, mirrors;
+  for (std::size_t i = 0; i < boundaries_.size(); ++i) {
+    const BoundaryGroup& group = mesh_.boundary_groups[i];
+    const bool mirror = std::holds_alternative<Wall>(boundaries_[i]) || std::holds_alternative<Symmetry>(boundaries_[i]);
+    (mirror ? mirrors : inside).push_back({group.first, group.last});
+    // zero gradient: the cell is its own neighbour; behind a mirror nothing is read
+    if (!std::holds_alternative<Inflow>(boundaries_[i]))
+      for (std::int32_t face = group.first; face < group.last; ++face) faces_.right[face] = faces_.left[face];
+  }
+  if (geometry_ == Geometry::plane) pick_kernels<Plane>(setup_, options_.scalar, kernels_, pair_kernels_);
+  else pick_kernels<Space>(setup_, options_.scalar, kernels_, pair_kernels_);
+  allocate();
+  interfaces_.emplace(faces_, fields_, std::move(inside), std::move(mirrors),
+                      std::vector<FaceRange>{{mesh_.n_interior_faces, mesh_.first_boundary_face()}});
+  set_initial_state();
+  if (!fields_.multiphase())
+    for (const Part part : {Part::inside, Part::mirror, Part::halo}) interfaces_->sort(faces_, fields_, part);
+  if (fields_.multiphase() && setup_.alpha_min == 0) exchange_.emplace(mpi_, mesh_, fields_);
+
+  std::size_t per_cell = fields_.multiphase() ? fields_.n_phases() : 0;
+  for (const Phase& phase : fields_.phases) per_cell += phase.n_conserved();
+  std::vector<std::size_t> capacity;
+  for (const Neighbour& neighbour : mesh_.neighbours) capacity.push_back(per_cell * neighbour.receive_count);
+  halo_ = std::make_unique<NeighbourExchange>(mpi_, mesh_.neighbours, capacity, 10);
+}
+
+void Solver::allocate() {
+  const std::size_t n_all = mesh_.n_all() + pack_width;
+  fields_.dimension = geometry_ == Geometry::plane ? 2 : 3;
+  fields_.n_owned = mesh_.n_owned;
+  fields_.n_all = mesh_.n_all();
+  fields_.volume.assign(mesh_.volume.begin(), mesh_.volume.end());
+  fields_.volume.resize(n_all, 1);
+  fields_.pure.assign(n_all, 0);
+  const bool multiphase = setup_.phases.size() > 1;
+  const std::size_t list_capacity = faces_.n + n_parts * pack_width;
+  const std::size_t pure_slots = first_mixed_slot(faces_), mixed_slots = multiphase ? list_capacity + 2 * pack_width : 0;
+  for (std::size_t k = 0; k < setup_.phases.size(); ++k) {
+    const PhaseSetup& from = setup_.phases[k];
+    const PhaseKernels& kernels = kernels_[k];
+    Phase& phase = fields_.phases.emplace_back();
+    phase.name = from.name;
+    phase.is_void = from.is_void();
+    phase.kind = from.is_solid() ? Kind::solid : Kind::fluid;
+    phase.eos = from.eos;
+    phase.material = from.elastic.value_or(HyperelasticMaterial{});
+    phase.void_pressure = from.void_pressure.value_or(0);
+    if (multiphase) phase.alpha.assign(n_all, 0);
+    if (phase.is_void) continue;
+    phase.conserved.resize(kernels.n_conserved);
+    for (int c = 0; c < kernels.n_conserved; ++c)
+      phase.conserved[c].assign(n_all, c < fields_.first_cobasis() ? 0 : identity_cobasis(fields_.dimension, c - fields_.first_cobasis()));
+    phase.primitive.assign(kernels.n_primitive, AlignedVector<double>(n_all, 0));
+
+    SlotLists& lists = phase.lists;
+    lists.pure.reserve(list_capacity);
+    lists.slot_of_face.assign(faces_.n + 1, 0);
+    const std::size_t flux_size = (pure_slots + mixed_slots) * kernels.n_flux;
+    if (flux_size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+      throw InputError(fmt::format("{}: {} faces on one rank are too many for 32-bit positions; use more ranks",
+                                   setup_.case_file, faces_.n));
+    phase.flux = RawStorage(flux_size);
+    std::fill_n(phase.flux.data(), pack_width * kernels.n_flux, 0.0);
+    if (multiphase) {
+      lists.mixed.reserve(list_capacity);
+      lists.mixed_share.reserve(list_capacity);
+      phase.gain = RawStorage(mixed_slots * kernels.n_gain);
+      std::fill_n(phase.gain.data(), pack_width * kernels.n_gain, 0.0);
+      phase.sides = RawStorage(mixed_slots * 2 * kernels.n_side);
+    }
+  }
+  pure_cells_.resize(fields_.n_phases());
+  mixed_cells_.resize(fields_.n_phases());
+  touched_.assign(mesh_.n_owned, 0);
+  const std::size_t cells = mesh_.n_cells() + pack_width;
+  for (auto* lists : {&pure_cells_, &mixed_cells_})
+    for (CellList& list : *lists) list.reserve(cells);
+  material_cells_.reserve(cells);
+  scratch_cells_.reserve(cells);
+  touched_cells_.reserve(cells);
+  booked_.assign(fields_.n_phases(), std::vector<std::vector<double>>(fields_.dimension + 2, std::vector<double>(mesh_.n_boundary_faces, 0.0)));
+}
+
+void Solver::set_state(int k, std::int32_t cell, double alpha, const PhaseState& state, const Point& x) {
+  Phase& phase = fields_.phases[k];
+  if (fields_.multiphase()) phase.alpha[cell] = alpha;
+  if (phase.is_void || alpha == 0) return;
+  const std::vector<double> q = geometry_ == Geometry::plane ? conserved_state<Plane>(setup_.phases[k], state, x)
+                                                             : conserved_state<Space>(setup_.phases[k], state, x);
+  for (int c = 0; c < phase.n_conserved(); ++c)
+    phase.conserved[c][cell] = (c < fields_.first_cobasis() ? alpha : 1) * q[c];
+}
+
+void Solver::set_initial_state() {
+  const int n = fields_.n_phases();
+  std::string mistake;
+  try {
+    const InitialState initial = paint(setup_.regions, n, mesh_);
+    for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell)
+      for (int k = 0; k < n; ++k)
+        if (initial.region[k][cell] >= 0)
+          set_state(k, cell, initial.alpha[k][cell], setup_.regions[initial.region[k][cell]].filling.states[k],
+                    mesh_.centroid[cell]);
+  } catch (const InputError& error) {
+    mistake = error.what();
+  }
+  if (mpi_.any(!mistake.empty())) throw InputError(mistake.empty() ? "another rank found the initial state wrong" : mistake);
+
+  std::vector<CellList> ghosts(n);
+  for (std::size_t i = 0; i < boundaries_.size(); ++i) {
+    const auto* inflow = std::get_if<Inflow>(&boundaries_[i]);
+    if (!inflow) continue;
+    for (std::int32_t face = mesh_.boundary_groups[i].first; face < mesh_.boundary_groups[i].last; ++face)
+      for (int k = 0; k < n; ++k) {
+        const double alpha = inflow->filling.alpha[k];
+        set_state(k, mesh_.ghost_of(face), alpha, inflow->filling.states[k], mesh_.face_centroid[face]);
+        if (alpha > 0 && !fields_.phases[k].is_void) ghosts[k].push_back(mesh_.ghost_of(face));
+      }
+  }
+  if (fields_.multiphase()) {
+    for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) fields_.complete(cell);
+    for (std::size_t i = 0; i < boundaries_.size(); ++i)
+      if (std::holds_alternative<Inflow>(boundaries_[i]))
+        for (std::int32_t face = mesh_.boundary_groups[i].first; face < mesh_.boundary_groups[i].last; ++face)
+          fields_.complete(mesh_.ghost_of(face));
+  } else {
+    for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) material_cells_.push_back(cell);
+    material_count_ = material_cells_.size();
+    while (material_cells_.size() % pack_width != 0) material_cells_.push_back(material_cells_[material_count_ - 1]);
+    pure_cells_[0] = material_cells_;
+  }
+  for (int k = 0; k < n; ++k) {
+    Phase& phase = fields_.phases[k];
+    if (phase.is_void) continue;
+    CellList cells;
+    for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell)
+      if (!fields_.multiphase() || phase.alpha[cell] > 0) cells.push_back(cell);
+    bad_.clear();
+    for (CellList* list : {&cells, &ghosts[k]}) {
+      const auto count = static_cast<std::int32_t>(list->size());
+      while (list->size() % pack_width != 0) list->push_back((*list)[count - 1]);
+      kernels_[k].primitives(phase, *list, count, bad_);
+    }
+    for (const std::int32_t cell : bad_)
+      if (cell < mesh_.n_owned) note_unphysical(k, cell);
+  }
+  if (mpi_.any(!unphysical_.empty())) stop_unphysical();
+}
+
+}  // namespace cobasis

@@ -1,0 +1,313 @@
+#include "solver/volume_exchange.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace cobasis {
+namespace {
+
+constexpr double largest_threshold = 1e-3;   // larger values sharpen interfaces, but make staircases of oblique ones
+constexpr double smallest_threshold = 1e-9;
+constexpr double dust_threshold = 1e-11;
+/// A donor keeps a phase that it gives: what is itself small (fragments below 1e-2 may be exchanged by force) may be about
+/// to leave the donor, and must not be given twice.
+constexpr double least_to_give = 1e-2;
+
+/// Messages: the position of the asking cell, of the donor, k, j, volume, alpha, dust only, then the content.
+constexpr int request_head = 7;
+
+std::vector<std::size_t> capacities(const Mesh& mesh, std::size_t per_cell) {
+  std::vector<std::size_t> values;
+  for (const Neighbour& n : mesh.neighbours)
+    values.push_back(per_cell * std::max<std::size_t>(n.send.size(), n.receive_count));
+  return values;
+}
+
+/// An absent phase starts from e = I when it comes back.
+void reset_cobasis(const Fields& fields, Phase& phase, std::int32_t cell) {
+  for (int c = fields.first_cobasis(); c < phase.n_conserved(); ++c)
+    phase.conserved[c][cell] = identity_cobasis(fields.dimension, c - fields.first_cobasis());
+}
+
+std::size_t most_conserved(const Fields& fields) {
+  int most = 0;
+  for (const Phase& phase : fields.phases) most = std::max(most, phase.n_conserved());
+  return most;
+}
+
+}  // namespace
+
+VolumeExchange::VolumeExchange(const Mpi& mpi, const Mesh& mesh, const Fields& fields)
+    : alpha_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases()), 11),
+      requests_out_(mpi, mesh.neighbours,
+                    capacities(mesh, fields.n_phases() * (request_head + most_conserved(fields))), 12),
+      answers_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases() * (1 + most_conserved(fields))), 13),
+      neighbour_of_halo_(mesh.n_halo),
+      volume_of_cell_(mesh.n_owned, 0.0) {
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
+    const Neighbour& neighbour = mesh.neighbours[n];
+    std::fill_n(neighbour_of_halo_.begin() + (neighbour.receive_first - mesh.n_owned), neighbour.receive_count,
+                static_cast<std::int32_t>(n));
+  }
+}
+
+Content VolumeExchange::content_of(const Fields& fields, int k, std::int32_t cell) const {
+  const Phase& phase = fields.phases[k];
+  Content content(phase.n_conserved());
+  for (int c = 0; c < phase.n_conserved(); ++c)
+    content[c] = phase.conserved[c][cell] * fields.volume[cell] * (c < fields.first_cobasis() ? 1 : phase.alpha[cell]);
+  return content;
+}
+
+void VolumeExchange::share_alpha(const Mesh& mesh, Fields& fields) {
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
+    std::vector<double>& out = alpha_.outgoing(n);
+    out.clear();
+    for (const std::int32_t cell : mesh.neighbours[n].send)
+      for (const Phase& phase : fields.phases) out.push_back(phase.alpha[cell]);
+  }
+  alpha_.start();
+  alpha_.finish();
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
+    const double* in = alpha_.incoming(n).data();
+    for (std::int32_t i = 0; i < mesh.neighbours[n].receive_count; ++i)
+      for (Phase& phase : fields.phases) phase.alpha[mesh.neighbours[n].receive_first + i] = *in++;
+  }
+}
+
+void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields& fields, std::int32_t cell, int k) {
+  const auto alpha = [&](int phase, std::int32_t at) { return fields.phases[phase].alpha[at]; };
+  int j = k == 0 ? 1 : 0;
+  for (int phase = 0; phase < fields.n_phases(); ++phase)
+    if (phase != k && alpha(phase, cell) > alpha(j, cell)) j = phase;
+  const double own = alpha(k, cell), volume = own * fields.volume[cell];
+
+  std::int32_t donor = -1, richest = -1;
+  const auto better = [&](std::int32_t candidate, std::int32_t than) {
+    if (than < 0) return true;
+    const double a = alpha(k, candidate), b = alpha(k, than);
+    return a > b || (a == b && mesh.global_id[candidate] < mesh.global_id[than]);
+  };
+  for (int f = 0; f < faces.max_cell_faces; ++f) {
+    const std::int32_t entry = faces.cell_faces[static_cast<std::size_t>(f) * faces.cell_stride + cell];
+    const std::int32_t face = entry >> 1;
+    if (face >= mesh.first_boundary_face()) continue;
+    const std::int32_t d = entry & 1 ? faces.left[face] : faces.right[face];
+    if (d == cell || !(alpha(k, d) > own)) continue;
+    if (better(d, richest)) richest = d;
+    if (alpha(j, d) >= least_to_give && alpha(j, d) * fields.volume[d] >= volume && better(d, donor)) donor = d;
+  }
+  const bool dust_only = donor < 0 && std::fabs(own) < dust_threshold && richest >= 0;
+  if (dust_only) donor = richest;
+  if (donor < 0) {
+    ++counters_.kept;
+    return;
+  }
+  asked_.push_back({mesh.global_id[cell], cell, donor, k, j, volume, own, dust_only, -1, 0,
+                    content_of(fields, k, cell)});
+}
+
+void VolumeExchange::ask(const Mesh& mesh, const Faces& faces, const Fields& fields, double dt,
+                         const std::vector<std::pair<std::int32_t, int>>& forced) {
+  asked_.clear();
+  auto next_forced = forced.begin();
+  for (std::int32_t cell = 0; cell < fields.n_owned; ++cell) {
+    while (next_forced != forced.end() && next_forced->first < cell) ++next_forced;
+    if (fields.pure[cell] >= 0) continue;
+    // the threshold follows the speed of the material, so that slow fronts move as exactly as fast ones
+    int material = -1;
+    for (int k = 0; k < fields.n_phases(); ++k)
+      if (!fields.phases[k].is_void && (material < 0 || fields.phases[k].alpha[cell] > fields.phases[material].alpha[cell]))
+        material = k;
+    const Phase& m = fields.phases[material];
+    const double mass = m.conserved[0][cell];
+    double swept = 0;
+    for (int f = 0; f < faces.max_cell_faces && mass > 0; ++f) {
+      const std::int32_t face = faces.cell_faces[static_cast<std::size_t>(f) * faces.cell_stride + cell] >> 1;
+      double un = m.conserved[1][cell] * faces.nx[face] + m.conserved[2][cell] * faces.ny[face];
+      if (fields.dimension == 3) un += m.conserved[3][cell] * faces.nz[face];
+      swept += faces.area[face] * std::fabs(un / mass);
+    }
+    const double threshold = std::max(
+        smallest_threshold, std::min(largest_threshold, 0.1 * dt * swept / (2 * fields.volume[cell])));
+    for (int k = 0; k < fields.n_phases(); ++k) {
+      const double alpha = fields.phases[k].alpha[cell];
+      const bool something = alpha != 0 || (!fields.phases[k].is_void && fields.phases[k].conserved[0][cell] != 0);
+      const bool is_forced = next_forced != forced.end() && *next_forced == std::pair(cell, k);
+      if (is_forced) ++next_forced;
+      if (something && (alpha < threshold || is_forced)) request(mesh, faces, fields, cell, k);
+    }
+  }
+}
+
+void VolumeExchange::deliver(const Mesh& mesh, const Fields& fields) {
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) requests_out_.outgoing(n).clear();
+  received_.clear();
+  std::vector<int> sent(mesh.neighbours.size(), 0);
+  for (Request& r : asked_) {
+    if (r.donor < mesh.n_owned) {
+      received_.push_back(r);
+      received_.back().position = static_cast<int>(&r - asked_.data());
+      continue;
+    }
+    const int n = neighbour_of_halo_[r.donor - mesh.n_owned];
+    const Neighbour& neighbour = mesh.neighbours[n];
+    r.neighbour = n;
+    r.position = sent[n]++;
+    const auto own = std::lower_bound(neighbour.send.begin(), neighbour.send.end(), r.cell) - neighbour.send.begin();
+    std::vector<double>& out = requests_out_.outgoing(n);
+    out.insert(out.end(), {static_cast<double>(own), static_cast<double>(r.donor - neighbour.receive_first),
+                           static_cast<double>(r.k), static_cast<double>(r.j), r.volume, r.alpha,
+                           static_cast<double>(r.dust_only)});
+    out.insert(out.end(), r.content.begin(), r.content.end());
+  }
+  requests_out_.start();
+  requests_out_.finish();
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
+    const std::span<const double> in = requests_out_.incoming(n);
+    const Neighbour& neighbour = mesh.neighbours[n];
+    int position = 0;
+    for (std::size_t at = 0; at < in.size(); ++position) {
+      const std::int32_t cell = neighbour.receive_first + static_cast<std::int32_t>(in[at]);
+      const std::int32_t donor = neighbour.send[static_cast<std::size_t>(in[at + 1])];
+      const int k = static_cast<int>(in[at + 2]), j = static_cast<int>(in[at + 3]);
+      const double* content = &in[at] + request_head;
+      const int size = fields.phases[k].n_conserved();
+      received_.push_back({mesh.global_id[cell], cell, donor, k, j, in[at + 4], in[at + 5], in[at + 6] != 0,
+                           static_cast<int>(n), position, Content(content, content + size)});
+      at += request_head + size;
+    }
+  }
+}
+
+void VolumeExchange::serve(const Mesh& mesh, Fields& fields) {
+  deposits_.clear();
+  extractions_.clear();
+  // smallest first, ties by the asking cell: the same order for any partition
+  std::sort(received_.begin(), received_.end(), [](const Request& a, const Request& b) {
+    return std::tie(a.donor, a.j, a.alpha, a.from_id, a.k) < std::tie(b.donor, b.j, b.alpha, b.from_id, b.k);
+  });
+  std::vector<std::vector<std::pair<Answer, Content>>> answers(mesh.neighbours.size());
+  std::vector<std::pair<Answer, Content>> own(asked_.size());
+  double budget = 0;
+  for (std::size_t i = 0; i < received_.size(); ++i) {
+    Request& r = received_[i];
+    const double volume = fields.volume[r.donor], available = fields.phases[r.j].alpha[r.donor] * volume;
+    if (i == 0 || r.donor != received_[i - 1].donor || r.j != received_[i - 1].j) budget = available;
+    Answer answer = Answer::refused;
+    Content content;
+    if (!r.dust_only && r.volume <= budget) {
+      budget -= r.volume;
+      answer = Answer::granted;
+      content = content_of(fields, r.j, r.donor);
+      for (double& value : content) value *= r.volume / available;
+      extractions_.push_back({r.donor, r.j, r.volume});
+      deposits_.push_back({r.donor, r.k, r.from_id, r.volume, r.content});
+    } else if (r.dust_only || std::fabs(r.alpha) < dust_threshold) {
+      answer = Answer::dust;
+      deposits_.push_back({r.donor, r.k, r.from_id, 0, r.content});
+    }
+    if (r.neighbour < 0) {
+      own[r.position] = {answer, std::move(content)};
+    } else {
+      auto& to = answers[r.neighbour];
+      if (static_cast<int>(to.size()) <= r.position) to.resize(r.position + 1);
+      to[r.position] = {answer, std::move(content)};
+    }
+  }
+  for (std::size_t n = 0; n < answers.size(); ++n) {
+    std::vector<double>& out = answers_.outgoing(n);
+    out.clear();
+    for (const auto& [answer, content] : answers[n]) {
+      out.push_back(static_cast<double>(answer));
+      out.insert(out.end(), content.begin(), content.end());
+    }
+  }
+  answers_.start();
+  answers_.finish();
+  std::vector<std::size_t> read(answers.size(), 0);
+  for (std::size_t i = 0; i < asked_.size(); ++i) {
+    const Request& r = asked_[i];
+    if (r.neighbour < 0) {
+      settle(mesh, fields, r, own[i].first, std::move(own[i].second));
+      continue;
+    }
+    const std::span<const double> in = answers_.incoming(r.neighbour);
+    std::size_t& at = read[r.neighbour];
+    const Answer answer = static_cast<Answer>(static_cast<int>(in[at++]));
+    Content content;
+    if (answer == Answer::granted) {
+      const int size = fields.phases[r.j].n_conserved();
+      content.assign(&in[at], &in[at] + size);
+      at += size;
+    }
+    settle(mesh, fields, r, answer, std::move(content));
+  }
+}
+
+void VolumeExchange::settle(const Mesh& mesh, Fields& fields, const Request& r, Answer answer, Content content) {
+  if (answer == Answer::refused) {
+    ++counters_.kept;
+    return;
+  }
+  if (answer == Answer::granted) {
+    ++counters_.exchanges;
+    volume_of_cell_[r.cell] += std::fabs(r.volume);
+    deposits_.push_back({r.cell, r.j, mesh.global_id[r.donor], r.volume, std::move(content)});
+  } else {
+    ++counters_.dust;
+    deposits_.push_back({r.cell, r.j, mesh.global_id[r.donor], r.volume, Content(fields.phases[r.j].n_conserved(), 0)});
+  }
+  extractions_.push_back({r.cell, r.k, std::numeric_limits<double>::infinity()});
+}
+
+const std::vector<std::int32_t>& VolumeExchange::run(const Mesh& mesh, const Faces& faces, Fields& fields, double dt,
+                                                     const std::vector<std::pair<std::int32_t, int>>& forced) {
+  touched_.clear();
+  share_alpha(mesh, fields);
+  ask(mesh, faces, fields, dt, forced);
+  deliver(mesh, fields);
+  serve(mesh, fields);
+
+  // All decisions and contents came from the state before: now extract all, then deposit all.
+  std::sort(extractions_.begin(), extractions_.end(), [](const Extraction& a, const Extraction& b) {
+    return std::tie(a.cell, a.phase, a.volume) < std::tie(b.cell, b.phase, b.volume);
+  });
+  for (std::size_t i = 0, next = 0; i < extractions_.size(); i = next) {
+    const Extraction& x = extractions_[i];
+    double volume = 0;
+    for (next = i; next < extractions_.size() && extractions_[next].cell == x.cell && extractions_[next].phase == x.phase; ++next)
+      volume += extractions_[next].volume;
+    Phase& phase = fields.phases[x.phase];
+    double& alpha = phase.alpha[x.cell];
+    const bool all = volume == std::numeric_limits<double>::infinity();
+    const double rest = all ? 0 : 1 - volume / (alpha * fields.volume[x.cell]);
+    alpha = all ? 0 : alpha - volume / fields.volume[x.cell];
+    for (int c = 0; c < std::min(phase.n_conserved(), fields.first_cobasis()); ++c) phase.conserved[c][x.cell] *= rest;
+    if (all) reset_cobasis(fields, phase, x.cell);
+    touched_.push_back(x.cell);
+  }
+  std::sort(deposits_.begin(), deposits_.end(), [](const Deposit& a, const Deposit& b) {
+    return std::tie(a.cell, a.phase, a.from_id, a.volume) < std::tie(b.cell, b.phase, b.from_id, b.volume);
+  });
+  for (const Deposit& deposit : deposits_) {
+    Phase& phase = fields.phases[deposit.phase];
+    const double volume = fields.volume[deposit.cell];
+    double& alpha = phase.alpha[deposit.cell];
+    const double before = alpha * volume, after = before + deposit.volume;
+    alpha += deposit.volume / volume;
+    for (int c = 0; c < phase.n_conserved(); ++c) {
+      double& q = phase.conserved[c][deposit.cell];
+      if (c < fields.first_cobasis()) q += deposit.content[c] / volume;
+      else if (deposit.volume != 0 && after != 0) q = (before * q + deposit.content[c]) / after;
+    }
+    touched_.push_back(deposit.cell);
+  }
+  std::sort(touched_.begin(), touched_.end());
+  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+  for (const std::int32_t cell : touched_) fields.complete(cell);
+  return touched_;
+}
+
+}  // namespace cobasis

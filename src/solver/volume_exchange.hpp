@@ -1,0 +1,78 @@
+// Absent phases at no cost: small volumes of a phase change places with equal volumes of the other phase in a neighbour
+// that has more of it. Conserves every phase, leaves intensive values untouched, and moves slow fronts exactly.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "mesh/neighbour_exchange.hpp"
+#include "solver/faces.hpp"
+#include "solver/field.hpp"
+
+namespace cobasis {
+
+/// What has been exchanged so far on this rank.
+struct ExchangeCounters {
+  std::int64_t exchanges = 0;
+  std::int64_t kept = 0;         ///< small volumes that found no partner and stayed, summed over steps
+  std::int64_t dust = 0;         ///< volumes below 1e-11 whose content went to a neighbour without volume
+};
+
+class VolumeExchange {
+ public:
+  VolumeExchange(const Mpi& mpi, const Mesh& mesh, const Fields& fields);
+
+  /// After a full step. `forced`: (cell, phase) fragments to be exchanged whatever their size. Collective. Returns the
+  /// owned cells that were touched, ascending.
+  const std::vector<std::int32_t>& run(const Mesh& mesh, const Faces& faces, Fields& fields, double dt,
+                                       const std::vector<std::pair<std::int32_t, int>>& forced);
+
+  const ExchangeCounters& counters() const { return counters_; }
+  /// Volume that each owned cell has got rid of so far [m^3].
+  const std::vector<double>& volume_of_cell() const { return volume_of_cell_; }
+
+ private:
+  enum class Answer { refused, granted, dust };
+  struct Request {  // phase k of cell i asks cell d for an equal volume of phase j
+    std::int64_t from_id;
+    std::int32_t cell, donor;
+    int k, j;
+    double volume, alpha;
+    bool dust_only;
+    int neighbour, position;  // where the answer goes: -1 to this rank's cell, else by position in that rank's message
+    Content content;
+  };
+  struct Deposit {
+    std::int32_t cell;
+    int phase;
+    std::int64_t from_id;
+    double volume;
+    Content content;
+  };
+  struct Extraction {
+    std::int32_t cell;
+    int phase;
+    double volume;
+  };
+
+  void share_alpha(const Mesh& mesh, Fields& fields);
+  void ask(const Mesh& mesh, const Faces& faces, const Fields& fields, double dt,
+           const std::vector<std::pair<std::int32_t, int>>& forced);
+  void request(const Mesh& mesh, const Faces& faces, const Fields& fields, std::int32_t cell, int k);
+  void deliver(const Mesh& mesh, const Fields& fields);
+  void serve(const Mesh& mesh, Fields& fields);
+  void settle(const Mesh& mesh, Fields& fields, const Request& request, Answer answer, Content content);
+  Content content_of(const Fields& fields, int k, std::int32_t cell) const;
+
+  NeighbourExchange alpha_, requests_out_, answers_;
+  std::vector<std::int32_t> neighbour_of_halo_;
+  std::vector<Request> asked_, received_;
+  std::vector<Deposit> deposits_;
+  std::vector<Extraction> extractions_;
+  std::vector<std::int32_t> touched_;
+  ExchangeCounters counters_;
+  std::vector<double> volume_of_cell_;
+};
+
+}  // namespace cobasis

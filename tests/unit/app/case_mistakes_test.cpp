@@ -1,0 +1,302 @@
+// What is wrong with a case is said with file:line, what was found, what is allowed, and the nearest name.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "case_file.hpp"
+
+using namespace cobasis;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+int line_of(const std::string& text, const std::string& fragment) {
+  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(text.find(fragment)), '\n'));
+}
+
+/// One mistake, at the line where `at` stands, that says all of these.
+void check_mistake(const std::string& text, const std::string& at, const std::vector<std::string>& says) {
+  INFO(text);
+  REQUIRE(text.find(at) != std::string::npos);
+  const std::string said = mistakes_in(text);
+  CHECK_THAT(said, StartsWith("case.toml:" + std::to_string(line_of(text, at)) + ": "));
+  CHECK(std::count(said.begin(), said.end(), '\n') == 0);
+  for (const std::string& piece : says) CHECK_THAT(said, Contains(piece));
+}
+
+/// The same with `replacement` in place of `found`, standing where the mistake is.
+void check_replaced(const std::string& found, const std::string& replacement, const std::vector<std::string>& says) {
+  check_mistake(with(rest, found, replacement), replacement, says);
+}
+
+}  // namespace
+
+TEST_CASE("a right case has no mistakes") { CHECK(mistakes_in(rest).empty()); }
+
+TEST_CASE("a file that is missing, empty or not TOML is refused") {
+  CHECK_THROWS_WITH(read_case("no/such.toml"), Contains("no/such.toml: cannot be read"));
+  CHECK_THROWS_AS(read_case("/"), InputError);
+  CHECK_THAT(mistakes_in(""), Contains("missing key \"mesh\"") && Contains("missing key \"end_time\""));
+  CHECK_THAT(mistakes_in("schema = 1\n\ncfl = = 2\n"), StartsWith("case.toml:3: "));
+  CHECK_THAT(mistakes_in("schema = 1\nschema = 1\n"), StartsWith("case.toml:2: ") && Contains("schema"));
+}
+
+TEST_CASE("unknown keys are refused in every table, with the nearest name") {
+  check_mistake(with(rest, "end_time", "cfll = 1\nend_time"), "cfll",
+                {"unknown key \"cfll\"", "allowed: schema, title", "did you mean \"cfl\"?"});
+  check_mistake(rest + "[scheme]\nordre = 1\n", "ordre", {"allowed: order", "did you mean \"order\"?"});
+  check_mistake(with(rest, "material = \"air\"", "materiel = \"air\"\nmaterial = \"air\""), "materiel",
+                {"allowed: material, eos, elastic, density, void", "\"material\"?"});
+  check_mistake(with(rest, "\"air\"", "\"air\"\neos = { gama = 1.4 }"), "gama", {"allowed: type, gamma", "\"gamma\"?"});
+  check_mistake(with(rest, "\"copper\"", "\"copper\"\nelastic = { nu = 1 }"), "nu",
+                {"allowed: mu, rho0, a", "\"mu\"?"});
+  check_mistake(with(rest, "pressure", "presure = 1\npressure"), "presure", {"allowed: shape, fill", "\"pressure\"?"});
+  check_mistake(with(rest, "pressure", "phase.air = { temperature = 300 }\npressure"), "temperature",
+                {"allowed: density, pressure, velocity, cobasis"});
+  check_mistake(with(rest, "\"wall\"", "{ type = \"wall\", with = \"x\" }"), "with", {"allowed: type"});
+  check_mistake(rest + "[output]\nevry = 1\n", "evry", {"allowed: directory, every", "\"every\"?"});
+  check_mistake(rest + "[[probe]]\nname = \"a\"\nat = [0, 0]\npoint = 1\n", "point", {"allowed: name, at"});
+  check_mistake(
+      rest + "[[integral]]\nname = \"a\"\nextent = { phase = \"air\", alpha = 0.5, axs = \"x\", axis = \"x\" }\n",
+      "extent", {"unknown key \"axs\"", "did you mean \"axis\"?"});
+}
+
+TEST_CASE("keys and words of features that do not exist are refused like unknown ones") {
+  for (const char* key : {"checkpoint_every = 10", "stop_when = \"steady\"", "accuracy = \"high\"", "order = 1"})
+    check_mistake(with(rest, "end_time", std::string(key) + "\nend_time"), key,
+                  {"unknown key", "allowed: schema, title"});
+  check_mistake(with(rest, "end_time", "scene = \"axisymmetric\"\nend_time"), "scene", {"allowed: plane, space"});
+  check_replaced("\"wall\"", "\"axis\"", {"allowed: wall, symmetry, transmissive, inflow, periodic"});
+  check_mistake(rest + "[scheme]\norder = 2\n", "order", {"order = 2; allowed: a whole number, 1"});
+  check_mistake(rest + "[contact]\ndefault = \"friction\"\n", "default", {"allowed: sliding, adherence"});
+  CHECK(mistakes_in(rest + "[scheme]\norder = 1\n").empty());
+}
+
+TEST_CASE("values of the wrong type are refused with the type that is allowed") {
+  check_replaced("schema = 1", "schema = \"1\"", {"schema = \"1\"", "a whole number"});
+  check_replaced("end_time = 1e-3", "end_time = \"long\"", {"end_time = \"long\"", "a number [s]"});
+  check_replaced("end_time = 1e-3", "end_time = true", {"end_time = true", "a number [s]"});
+  check_replaced("end_time = 1e-3", "end_time = 2026-01-01", {"a date or time", "a number [s]"});
+  check_replaced("end_time = 1e-3", "end_time = [1]", {"an array of 1", "a number [s]"});
+  check_replaced("mesh = \"../meshes/tube.geo\"", "mesh = 3", {"mesh = 3", "text"});
+  check_replaced("[[region]]", "[region]", {"region = a table", "an array of tables"});
+  check_replaced("material = \"air\"", "eos = \"ideal_gas\"", {"eos = \"ideal_gas\"", "a table"});
+  check_replaced("pressure = 1e5", "velocity = 3\npressure = 1e5", {"velocity = 3", "2 or 3 numbers or formulas"});
+  check_replaced("pressure = 1e5", "velocity = [1]\npressure = 1e5", {"an array of 1", "2 or 3"});
+  check_replaced("pressure = 1e5", "velocity = [1, true]\npressure = 1e5", {"velocity = true"});
+  check_mistake(with(rest, "fill = \"air\"", "fill = \"air\"\nphase.copper.cobasis = [[1, 0, 0], [0, 1, 0]]"),
+                "cobasis", {"an array of 2", "3 arrays of 3 numbers"});
+  check_mistake(rest + "left = 3\n", "left", {"left = 3", "or a table with one of these as type"});
+  check_mistake("phase = 3\n" + with(with(rest, "[phase.air]\nmaterial = \"air\"\n", ""),
+                                     "[phase.copper]\nmaterial = \"copper\"\n", ""),
+                "phase", {"phase = 3", "a table"});
+}
+
+TEST_CASE("numbers out of range, NaN and infinity are refused with the range") {
+  check_replaced("schema = 1", "schema = 2", {"schema = 2", "1"});
+  for (const char* value : {"0", "-1", "nan", "inf", "-inf"})
+    check_replaced("end_time = 1e-3", std::string("end_time = ") + value, {"0 < end_time"});
+  for (const char* value : {"0", "2.1", "nan", "-1"})
+    check_mistake(with(rest, "end_time", std::string("cfl = ") + value + "\nend_time"), "cfl", {"0 < cfl <= 2"});
+  for (const char* value : {"1e-13", "0.2", "-1e-3", "nan"})
+    check_mistake(with(rest, "end_time", std::string("alpha_min = ") + value + "\nend_time"), "alpha_min",
+                  {"0, or 1e-12 <= alpha_min <= 0.1"});
+  for (const char* value : {"0", "2.5", "-3"})
+    check_mistake(with(rest, "end_time", std::string("max_steps = ") + value + "\nend_time"), "max_steps",
+                  {"a whole number, 1 <= max_steps"});
+  check_mistake(with(rest, "\"air\"", "\"air\"\neos = { gamma = 1.0 }"), "eos", {"gamma = 1;", "1 < gamma"});
+  check_mistake(with(rest, "\"copper\"", "\"copper\"\nelastic = { a = 0.6 }"), "elastic",
+                {"a = 0.6", "-1 <= a <= 0.5"});
+  check_mistake(with(rest, "\"copper\"", "\"copper\"\nelastic = { mu = -1 }"), "elastic", {"mu = -1", "0 <= mu"});
+  check_mistake(with(rest, "\"air\"", "\"air\"\ndensity = 0"), "density", {"0 < density"});
+  check_replaced("pressure = 1e5", "pressure = inf", {"pressure = inf"});
+  check_replaced("pressure = 1e5", "velocity = [nan, 0]\npressure = 1e5", {"velocity = nan"});
+  check_mistake(rest + "[output]\ncount = 0\n", "count", {"1 <= count"});
+  check_mistake(rest + "[output]\nevery = 0\n", "every = 0", {"0 < every"});
+  check_mistake(rest + "[[line]]\nname = \"a\"\nfrom = [0, 0]\nto = [1, 0]\npoints = 1\n", "points", {"2 <= points"});
+}
+
+TEST_CASE("a wrong formula is refused with its text and position") {
+  check_mistake(with(rest, "pressure", "velocity = [\"x +\", 0]\npressure"), "velocity", {"\"x +\"", "position"});
+  check_mistake(with(rest, "pressure", "velocity = [\"x = 1\", 0]\npressure"), "velocity", {"assignment"});
+  check_mistake(with(rest, "pressure", "velocity = [\"1/0\", 0]\npressure"), "velocity", {"\"1/0\"", "allowed"});
+  check_mistake(with(rest, "\"everywhere\"", "\"expression\"\ninside = \"x < foo\""), "inside", {"foo", "position"});
+}
+
+TEST_CASE("missing keys are told at their table") {
+  check_mistake(with(rest, "end_time = 1e-3\n", ""), "schema", {"missing key \"end_time\"", "[s]"});
+  check_mistake(with(rest, "shape = \"everywhere\"\n", ""), "[[region]]", {"missing key \"shape\"", "half_space"});
+  check_mistake(with(rest, "\"everywhere\"", "\"sphere\"\ncenter = [0, 0]"), "[[region]]", {"missing key \"radius\""});
+  check_mistake(with(rest, "material = \"air\"", "eos = { type = \"stiffened_gas\", gamma = 4.4 }\ndensity = 1"), "eos",
+                {"missing key \"p_inf\"", "0 <= p_inf"});
+  check_mistake(with(rest, "material = \"air\"", "eos = { gamma = 1.4 }\ndensity = 1"), "eos",
+                {"missing key \"type\"", "stiffened_gas, ideal_gas"});
+  check_mistake(with(rest, "material = \"copper\"", "eos = { type = \"ideal_gas\", gamma = 2 }\nelastic = { mu = 3 }"),
+                "elastic", {"missing key \"rho0\""});
+  check_mistake(with(rest, "pressure = 1e5\n", ""), "[[region]]", {"missing key \"pressure\"", "\"air\""});
+  check_mistake(with(rest, "fill = \"air\"\n", ""), "[[region]]", {"neither fill nor alpha"});
+  check_mistake(with(rest, "material = \"air\"\n", ""), "[phase.air]", {"neither material nor eos nor void"});
+  check_replaced("\"wall\"", "{ type = \"periodic\" }", {"missing key \"with\""});
+  check_mistake(rest + "[[integral]]\nname = \"a\"\n", "[[integral]]", {"neither extent nor quantile"});
+}
+
+TEST_CASE("a case without phases, regions or boundaries is refused") {
+  const std::string head = "schema = 1\nmesh = \"../meshes/tube.geo\"\nend_time = 1\n";
+  CHECK_THAT(mistakes_in(head), Contains("missing key \"phase\"") && Contains("missing key \"region\"") &&
+                                    Contains("missing key \"boundary\""));
+  const std::string region = rest.substr(rest.find("[[region]]"), rest.find("[boundary]") - rest.find("[[region]]"));
+  check_mistake("region = []\n" + with(rest, region, ""), "region = []", {"no region", "at least one"});
+}
+
+TEST_CASE("unknown names of materials, phases, shapes and boundaries are refused with the nearest") {
+  check_replaced("material = \"copper\"", "material = \"coper\"", {"aluminium, copper", "did you mean \"copper\"?"});
+  check_replaced("fill = \"air\"", "fill = \"aire\"", {"unknown phase \"aire\"; allowed: air, copper", "\"air\"?"});
+  check_replaced("fill = \"air\"", "alpha = { air = 0.5, cooper = 0.5 }", {"unknown phase \"cooper\"", "\"copper\"?"});
+  check_mistake(with(rest, "pressure", "phase.cupper.pressure = 1\npressure"), "cupper",
+                {"unknown phase", "\"copper\"?"});
+  check_replaced("shape = \"everywhere\"", "shape = \"spere\"\ncenter = [0, 0]\nradius = 1",
+                 {"everywhere, half_space, box, sphere", "did you mean \"sphere\"?"});
+  check_replaced("\"wall\"", "\"wal\"", {"wall, symmetry", "did you mean \"wall\"?"});
+  check_replaced("\"wall\"", "{ type = \"transmisive\" }", {"did you mean \"transmissive\"?"});
+  check_mistake(with(rest, "material = \"air\"", "eos = { type = \"ideal\", gamma = 1.4 }\ndensity = 1"), "eos",
+                {"stiffened_gas, ideal_gas", "did you mean \"ideal_gas\"?"});
+  check_mistake(rest + "[contact]\n\"air-coper\" = \"sliding\"\n", "air-coper",
+                {"allowed: default, air-copper", "did you"});
+  check_mistake(rest + "[contact]\n\"air-air\" = \"sliding\"\n", "air-air", {"not between two phases"});
+  check_mistake(rest + "[[integral]]\nname = \"a\"\nextent = { phase = \"cop\", alpha = 0.5, axis = \"x\" }\n",
+                "extent", {"unknown phase \"cop\"", "\"copper\"?"});
+  check_mistake(rest + "[output]\nfields = [\"alpha\", \"presure\"]\n", "fields", {"alpha, density", "\"pressure\"?"});
+}
+
+TEST_CASE("volume fractions sum to one, and with traces every phase has its own") {
+  check_replaced("fill = \"air\"", "alpha = { air = 0.3, copper = 0.6 }", {"alpha sums to 0.8999", "allowed: 1"});
+  check_replaced("fill = \"air\"", "alpha = { air = 1.5 }", {"alpha.air = 1.5", "0 <= alpha.air <= 1"});
+  check_mistake(with(rest, "fill = \"air\"", "fill = \"air\"\nalpha = { air = 1.0 }"), "alpha = {",
+                {"both \"fill\" and \"alpha\"", "one of them"});
+  const std::string traces = with(rest, "end_time", "alpha_min = 1e-6\nend_time");
+  check_mistake(with(traces, "fill = \"air\"", "alpha = { air = 1.0 }"), "alpha = {",
+                {"alpha of \"copper\" is missing", "alpha_min = 1e-06"});
+}
+
+TEST_CASE("states that the materials cannot hold are refused") {
+  check_replaced("pressure = 1e5", "pressure = 0", {"pressure = 0 of phase \"air\"", "0 < pressure"});
+  check_mistake(with(with(rest, "fill = \"air\"", "fill = \"copper\""), "1e5", "-35e9"), "pressure",
+                {"pressure = -35000000000 of phase \"copper\"", "-34200000000 < pressure"});
+  CHECK(mistakes_in(with(with(rest, "fill = \"air\"", "fill = \"copper\""), "1e5", "-34e9")).empty());
+  check_mistake(with(rest, "pressure", "phase.air = { pressure = -1 }\npressure"), "phase.air = {", {"pressure = -1"});
+  check_mistake(with(rest, "material = \"air\"", "eos = { type = \"ideal_gas\", gamma = 1.4 }"), "[[region]]",
+                {"no density of the fluid \"air\""});
+  check_mistake(with(rest, "pressure", "phase.air.cobasis = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\npressure"), "cobasis",
+                {"cobasis of the fluid \"air\"", "of a solid"});
+  check_mistake(with(rest, "pressure", "phase.copper.cobasis = [[1, 0, 0], [0, -1, 0], [0, 0, 1]]\npressure"),
+                "cobasis", {"determinant -1", "0 < det(cobasis)"});
+  check_mistake(with(rest, "\"copper\"", "\"copper\"\ndensity = 8000"), "density = 8000", {"rho0"});
+  check_mistake(with(rest, "\"everywhere\"", "\"half_space\"\npoint = [0, 0]\nnormal = [0, 0]"), "normal",
+                {"length 0"});
+  check_mistake(with(rest, "\"everywhere\"", "\"box\"\nlow = [0, 0]\nhigh = [1, 0]"), "high", {"low < high"});
+  check_mistake(with(rest, "\"everywhere\"", "\"cylinder\"\nfrom = [0, 0]\nto = [0, 0]\nradius = 1"), "to = [",
+                {"two different points"});
+}
+
+TEST_CASE("a void is one, alone in its table, has no state and goes with no traces") {
+  const std::string free =
+      with(rest, "[phase.copper]\nmaterial = \"copper\"\n", "[phase.free]\nvoid = { pressure = 2e5 }\n");
+  CHECK(mistakes_in(free).empty());
+  check_mistake(with(free, "void =", "material = \"air\"\nvoid ="), "material = \"air\"\nvoid", {"both \"void\" and"});
+  check_mistake(with(free, "void =", "elastic = { mu = 1, rho0 = 1 }\nvoid ="), "elastic", {"\"elastic\" of the void"});
+  check_mistake(with(free, "{ pressure = 2e5 }", "{}"), "void", {"missing key \"pressure\"", "0 <= pressure"});
+  check_mistake(with(free, "[[region]]", "[phase.other]\nvoid = { pressure = 1 }\n[[region]]"),
+                "void = { pressure = 1 }", {"second void beside \"free\""});
+  check_mistake(with(free, "end_time", "alpha_min = 1e-6\nend_time"), "alpha_min", {"void \"free\"", "allowed: 0"});
+  check_mistake(with(free, "pressure = 1e5", "pressure = 1e5\nphase.free.pressure = 1"), "phase.free.p",
+                {"state of the void"});
+  const std::string filled = with(free, "fill = \"air\"\npressure = 1e5", "fill = \"free\"");
+  CHECK(mistakes_in(filled).empty());
+  CHECK(mistakes_in(with(filled, "\"free\"", "\"free\"\npressure = 2e5")).empty());
+  check_mistake(with(filled, "\"free\"", "\"free\"\npressure = 1e5"), "pressure = 1e5", {"none, or 200000"});
+  check_mistake(with(filled, "\"free\"", "\"free\"\nvelocity = [1, 0]"), "velocity", {"which has no state"});
+  check_mistake(with(free, "\"wall\"", "{ type = \"inflow\", fill = \"free\" }"), "inflow", {"inflow of the void"});
+  check_mistake(with(filled, "[phase.air]\nmaterial = \"air\"\n", ""), "[phase.free]", {"no phase but a void"});
+}
+
+TEST_CASE("periodic groups are two, and each the other's partner") {
+  const auto boundaries = [](const std::string& lines) { return with(rest, "\"*\" = \"wall\"", lines); };
+  const std::string a = "a = { type = \"periodic\", with = \"b\" }\n";
+  CHECK(mistakes_in(boundaries(a)).empty());
+  CHECK(mistakes_in(boundaries(a + "b = { type = \"periodic\", with = \"a\" }\n")).empty());
+  check_mistake(boundaries(a + "b = \"wall\"\n"), "a = {", {"\"b\" is another boundary"});
+  check_mistake(boundaries("a = { type = \"periodic\", with = \"a\" }\n"), "a = {", {"two different physical groups"});
+  check_mistake(boundaries("\"*\" = { type = \"periodic\", with = \"a\" }\n"), "\"*\"",
+                {"two different physical groups"});
+  CHECK_THAT(mistakes_in(boundaries(a + "b = { type = \"periodic\", with = \"c\" }\n")),
+             Contains("\"b\" is periodic with \"c\""));
+}
+
+TEST_CASE("names that become file names or columns are safe and unique") {
+  const auto probe = [](const std::string& name) { return "[[probe]]\nname = \"" + name + "\"\nat = [0, 0]\n"; };
+  for (const char* name : {"../a", "a/b", "..", ".hidden", "", "a,b", "a b", "/abs"})
+    check_mistake(rest + probe(name), "name = \"" + std::string(name) + "\"", {"text of letters, digits"});
+  check_mistake(rest + probe("history"), "name = \"history\"", {"is taken in the output directory"});
+  CHECK_THAT(mistakes_in(rest + probe("a") + probe("a")), Contains("\"a\" is taken"));
+  check_mistake(rest + "[[integral]]\nname = \"time\"\nextent = { phase = \"air\", alpha = 0.5, axis = \"x\" }\n",
+                "name = \"time\"", {"is taken in history.csv"});
+  check_mistake(with(rest, "[phase.copper]", "[phase.\"a/b\"]"), "[phase.\"a/b\"]", {"letters, digits, _ and -"});
+}
+
+TEST_CASE("output is by every or by count, not both") {
+  check_mistake(rest + "[output]\nevery = 1e-4\ncount = 3\n", "count", {"both \"every\" and \"count\""});
+  CHECK(read_text(rest).output.count == 20);
+}
+
+TEST_CASE("the mesh is an existing .geo or .msh, and only a .geo takes parameters") {
+  check_replaced("mesh = \"../meshes/tube.geo\"", "mesh = \"../meshes/tub.geo\"", {"there is no file", "tub.geo"});
+  check_replaced("mesh = \"../meshes/tube.geo\"", "mesh = \"../meshes/tube.stl\"", {"a .geo or .msh file"});
+  check_mistake(with(rest, "tube.geo\"", "tube.msh\"\nmesh_parameters = { n = 3 }"), "mesh_parameters", {"of a .geo"});
+  check_mistake(with(rest, "tube.geo\"", "tube.geo\"\nmesh_parameters = { n = \"3\" }"), "mesh_parameters",
+                {"mesh_parameters.n = \"3\"; allowed: a number"});
+}
+
+TEST_CASE("what a plane cannot hold is refused when the scene is a plane, else when the geometry is known") {
+  const auto check_both = [](const std::string& text, const std::string& says) {
+    INFO(text);
+    const std::string plane = with(text, "end_time", "scene = \"plane\"\nend_time");
+    CHECK_THAT(mistakes_in(plane), Contains(says) && Contains("case.toml"));
+    const Setup setup = read_text(text);
+    CHECK_THROWS_WITH(check_for_geometry(setup, Geometry::plane), Contains(says));
+    CHECK_THROWS_AS(check_for_geometry(setup, Geometry::plane), InputError);
+    CHECK_NOTHROW(check_for_geometry(setup, Geometry::space));
+  };
+  check_both(with(rest, "pressure", "velocity = [0, 0, 1]\npressure"), "velocity of phase \"air\"");
+  check_both(with(rest, "pressure", "velocity = [0, 0, \"x\"]\npressure"), "velocity of phase \"air\"");
+  check_both(with(rest, "\"wall\"", "{ type = \"inflow\", fill = \"air\", pressure = 1e5, velocity = [0, 0, 1] }"),
+             "velocity of phase \"air\"");
+  check_both(with(rest, "\"everywhere\"", "\"cylinder\"\nfrom = [0, 0]\nto = [1, 0]\nradius = 1"), "cylinder");
+  check_both(with(rest, "\"everywhere\"", "\"sphere\"\ncenter = [0, 0, 1]\nradius = 1"), "center");
+  check_both(rest + "[[probe]]\nname = \"a\"\nat = [0, 0, 1]\n", "probe \"a\"");
+  check_both(rest + "[[integral]]\nname = \"a\"\nextent = { phase = \"air\", alpha = 0.5, axis = \"z\" }\n", "axis");
+  const std::string solid = with(rest, "fill = \"air\"", "fill = \"copper\"");
+  for (const char* cobasis : {"[[1, 0, 0.1], [0, 1, 0], [0, 0, 1]]", "[[1, 0, 0], [0, 1, 0.1], [0, 0, 1]]",
+                              "[[1, 0, 0], [0, 1, 0], [0.1, 0, 1]]", "[[1, 0, 0], [0, 1, 0], [0, 0.1, 1]]"})
+    check_both(with(solid, "pressure", std::string("phase.copper.cobasis = ") + cobasis + "\npressure"), "cobasis");
+
+  const std::string in_plane = "phase.copper.cobasis = [[1, 0.1, 0], [0.2, 1, 0], [0, 0, 0.9]]\npressure";
+  CHECK_NOTHROW(check_for_geometry(read_text(with(solid, "pressure", in_plane)), Geometry::plane));
+  CHECK_NOTHROW(
+      check_for_geometry(read_text(with(rest, "pressure", "velocity = [1, \"y\", \"0\"]\npressure")), Geometry::plane));
+  const Setup flat_box = read_text(with(rest, "\"everywhere\"", "\"box\"\nlow = [0, 0]\nhigh = [1, 1]"));
+  CHECK_NOTHROW(check_for_geometry(flat_box, Geometry::plane));
+  CHECK_THROWS_WITH(check_for_geometry(flat_box, Geometry::space), Contains("box"));
+}
+
+TEST_CASE("all mistakes of a case are told together, in the order of the file") {
+  std::string text = with(rest, "end_time = 1e-3", "end_time = -1");
+  text = with(text, "material = \"copper\"", "material = \"coper\"");
+  text = with(text, "\"wall\"", "\"wal\"");
+  const std::string said = mistakes_in(text);
+  CHECK(std::count(said.begin(), said.end(), '\n') == 2);
+  const auto end_time = said.find("case.toml:3: end_time"), copper = said.find("case.toml:8: material"),
+             wall = said.find("case.toml:16: * = \"wal\"");
+  REQUIRE(wall != std::string::npos);
+  CHECK(end_time < copper);
+  CHECK(copper < wall);
+}
