@@ -1,5 +1,6 @@
 // A box: 0 <= x <= length, 0 <= y <= height, 0 <= z <= width. Mixed: hexahedra in the first third along x, prisms in the
-// second, tetrahedra in the last, joined to the prisms by pyramids.
+// second, then a layer of pyramids and tetrahedra, then tetrahedra. (Gmsh's free meshing next to quadrilaterals is no way
+// to get pyramids: it leaves inverted and flat elements.)
 DefineConstant[
   length = {1, Name "length in x [m]"},
   height = {1, Name "height in y [m]"},
@@ -9,6 +10,10 @@ DefineConstant[
 ];
 If (element != 0 && element != 4 && element != 8)
   Error("box_space.geo: element = %g, allowed: 0 (mixed), 4 (tetrahedra), 8 (hexahedra)", element);
+  Exit;
+EndIf
+If (element == 0 && n < 4)
+  Error("box_space.geo: n = %g, allowed for a mixed mesh: from 4", n);
   Exit;
 EndIf
 h = length / n;
@@ -31,11 +36,12 @@ Else
 EndIf
 If (element == 0)
   prisms_floor[] = Extrude {third * h, 0, 0} { Line{floor[0]}; Layers{third}; };
-  prisms[] = Extrude {0, 0, width} { Surface{prisms_floor[1]}; Layers{nz}; Recombine; };
-  e = 1e-3 * h;
-  x = 2 * third * h;
-  end[] = Surface In BoundingBox{x - e, -e, -e, x + e, height + e, width + e};
-  Extrude {length - x, 0, 0} { Surface{end[0]}; }  // no layers: meshed freely
+  Extrude {0, 0, width} { Surface{prisms_floor[1]}; Layers{nz}; Recombine; }
+  joint_floor[] = Extrude {h, 0, 0} { Line{prisms_floor[0]}; Layers{1}; };
+  Extrude {0, 0, width} { Surface{joint_floor[1]}; Layers{nz}; Recombine; QuadTriNoNewVerts; }
+  rest = n - 2 * third - 1;
+  rest_floor[] = Extrude {rest * h, 0, 0} { Line{joint_floor[0]}; Layers{rest}; };
+  Extrude {0, 0, width} { Surface{rest_floor[1]}; Layers{nz}; }
 EndIf
 
 e = 1e-3 * h;

@@ -15,7 +15,7 @@ import xml.etree.ElementTree
 
 import numpy
 import vtk
-from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
 COLUMNS, ROWS = 3, 2
 TILE = (640, 560)
@@ -50,17 +50,33 @@ def history(file):
     return {name: numpy.array([float(row[name]) for row in rows]) for name in rows[0]} if rows else {}
 
 
+def result_of(algorithm):
+    """Its output as data: a port alone does not keep its filter alive."""
+    algorithm.Update()
+    return algorithm.GetOutput()
+
+
+def without_seams(grid):
+    """The grid with one point where the pieces of several ranks have one each; no data."""
+    corners, joined = numpy.unique(vtk_to_numpy(grid.GetPoints().GetData()), axis=0, return_inverse=True)
+    points = vtk.vtkPoints()
+    points.SetData(numpy_to_vtk(corners, deep=True))
+    ids = joined[vtk_to_numpy(grid.GetCells().GetConnectivityArray())]
+    cells = vtk.vtkCellArray()
+    cells.SetData(grid.GetCells().GetOffsetsArray(), numpy_to_vtkIdTypeArray(ids.astype(numpy.int64), deep=True))
+    result = vtk.vtkUnstructuredGrid()
+    result.SetPoints(points)
+    result.SetCells(grid.GetCellTypesArray(), cells)
+    return result
+
+
 def read(file, phase):
     """The grid of an output with point data alpha and speed, interpolated from the cells."""
     if not os.path.exists(file):
         raise Failure(f"{file}: no such file")
     reader = vtk.vtkXMLPUnstructuredGridReader()
     reader.SetFileName(file)
-    whole = vtk.vtkAppendFilter()  # the ranks' pieces have corners of their own, which would leave seams
-    whole.MergePointsOn()
-    whole.SetInputConnection(reader.GetOutputPort())
-    whole.Update()
-    grid = whole.GetOutput()
+    grid = result_of(reader)
     cells = grid.GetCellData()
     arrays = [cells.GetArray(f"{name}.{phase}") for name in ("alpha", "velocity")]
     if None in arrays:
@@ -70,8 +86,7 @@ def read(file, phase):
 
     # An absent phase has no velocity: cells count by how much of the phase they hold.
     points = vtk.vtkCellDataToPointData()
-    bare = vtk.vtkUnstructuredGrid()
-    bare.CopyStructure(grid)
+    bare = without_seams(grid)
     for name, values in (("alpha", alpha), ("momentum", alpha[:, None] * velocity)):
         array = numpy_to_vtk(values, deep=True)
         array.SetName(name)
@@ -87,12 +102,6 @@ def read(file, phase):
     data.AddArray(speed)
     data.SetActiveScalars("alpha")
     return result
-
-
-def result_of(algorithm):
-    """Its output as data: a port alone does not keep its filter alive."""
-    algorithm.Update()
-    return algorithm.GetOutput()
 
 
 def mirrored(data, planes):

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "app/case_parts.hpp"
-#include "app/suggestion.hpp"
+#include "math/suggestion.hpp"
 
 namespace cobasis {
 namespace {

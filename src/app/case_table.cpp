@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "app/suggestion.hpp"
+#include "math/suggestion.hpp"
 
 namespace cobasis {
 namespace {

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "app/case_table.hpp"
-#include "app/suggestion.hpp"
 #include "math/errors.hpp"
+#include "math/suggestion.hpp"
 
 namespace cobasis {
 namespace {

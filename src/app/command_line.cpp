@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "app/case_keys.hpp"
-#include "app/suggestion.hpp"
 #include "math/errors.hpp"
+#include "math/suggestion.hpp"
 
 namespace cobasis {
 namespace {

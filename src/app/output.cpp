@@ -92,11 +92,11 @@ void Output::write(const Snapshot& snapshot) {
     write_atomically(path(outputs_.back().second), pvtu(fields, pieces, setup_.output.float64));
     write_atomically(path(stem_ + ".pvd"), pvd(outputs_));
     if (outputs_.size() == 1) remove_former_outputs();
-    std::vector<std::pair<std::string, std::string>> units;
+    Units units;
     for (const OutputField& field : fields) {
       for (std::size_t c = 0; c < field.values.size(); ++c) units.emplace_back(field.column(c), field.unit);
     }
-    add_units(units);
+    add_units("fields", units);
   });
   for (Table& line : lines_) write_line(line, snapshot, number);
 }
@@ -129,7 +129,7 @@ void Output::history(const Snapshot& snapshot, const std::vector<Column>& totals
   for (const Table& probe : probes_) samples.push_back(sample(probe, snapshot));
   together([&] {
     if (!mpi_.root()) return;
-    std::vector<std::pair<std::string, std::string>> columns = {{"step", "1"}, {"time", "s"}, {"dt", "s"}};
+    Units columns = {{"step", "1"}, {"time", "s"}, {"dt", "s"}};
     std::vector<double> row = {static_cast<double>(snapshot.step), snapshot.time, snapshot.dt};
     for (const Column& total : totals) {
       columns.emplace_back(total.name, total.unit);
@@ -138,7 +138,7 @@ void Output::history(const Snapshot& snapshot, const std::vector<Column>& totals
     for (const IntegralSetup& integral : setup_.integrals) columns.emplace_back(integral.name, "m");
     row.insert(row.end(), latest_integrals_.begin(), latest_integrals_.end());
     if (!history_) {
-      add_units(columns);
+      add_units("history", columns);
       std::vector<std::string> header;
       for (const auto& [name, unit] : columns) header.push_back(name);
       history_.emplace(path("history.csv"), csv_row(header));
@@ -181,14 +181,12 @@ Output::Samples Output::sample(const Table& table, const Snapshot& snapshot) con
   return {columns_of(fields), table.sampler.in_order(mpi_, rows_of(fields))};
 }
 
-void Output::add_units(const std::vector<std::pair<std::string, std::string>>& units) {
-  const std::size_t known = units_.size();
-  for (const auto& unit : units) {
-    if (std::find(units_.begin(), units_.end(), unit) == units_.end()) units_.push_back(unit);
-  }
-  if (units_.size() == known) return;
-  std::string text = "column,unit\n";
-  for (const auto& [column, unit] : units_) text += csv_row(std::vector{column, unit});
+void Output::add_units(const std::string& where, const Units& units) {
+  std::string& rows = units_[where];
+  if (!rows.empty()) return;
+  for (const auto& [column, unit] : units) rows += csv_row(std::vector{where, column, unit});
+  std::string text = "where,column,unit\n";
+  for (const auto& [name, some_rows] : units_) text += some_rows;
   write_atomically(path("units.csv"), text);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,7 +26,7 @@ namespace cobasis {
 ///   <line>.csv          the latest samples; <line>.series: all of them, lines/<line>_0000.csv
 ///   <probe>.csv         a row per history row: step, time, fields
 ///   history.csv         step, time, dt, totals, integrals
-///   units.csv           unit of every column and field
+///   units.csv           unit of every column: of the fields (VTU files, lines, probes), of the history
 /// All members are collective. Failures to write are SystemError on all ranks together, with path and reason.
 class Output {
  public:
@@ -53,6 +54,7 @@ class Output {
     std::vector<std::pair<double, std::string>> files;  ///< of a line: time, path
     std::optional<RowFile> rows;                        ///< of a probe, rank 0
   };
+  using Units = std::vector<std::pair<std::string, std::string>>;  ///< column, unit
   struct Samples {
     std::vector<std::string> columns;
     std::vector<double> rows;  ///< on rank 0, points in order
@@ -61,7 +63,8 @@ class Output {
   std::string path(const std::string& name) const { return setup_.output.directory + "/" + name; }
   Samples sample(const Table& table, const Snapshot& snapshot) const;
   void write_line(Table& line, const Snapshot& snapshot, const std::string& number);
-  void add_units(const std::vector<std::pair<std::string, std::string>>& units);
+  /// Once per place, of: fields (VTU files, lines, probes), history.
+  void add_units(const std::string& where, const Units& units);
   void remove_former_outputs() const;
   /// Runs the action on every rank; what fails on one becomes SystemError on all.
   void together(const std::function<void()>& action) const;
@@ -73,9 +76,9 @@ class Output {
   Integrals integrals_;
   std::vector<double> latest_integrals_;
   std::vector<Table> lines_, probes_;
-  std::vector<std::pair<double, std::string>> outputs_;     ///< time, path of the .pvtu
-  std::optional<RowFile> history_;                          ///< rank 0
-  std::vector<std::pair<std::string, std::string>> units_;  ///< column, unit
+  std::vector<std::pair<double, std::string>> outputs_;  ///< time, path of the .pvtu
+  std::optional<RowFile> history_;                       ///< rank 0
+  std::map<std::string, std::string> units_;             ///< rows of units.csv by place
 };
 
 }  // namespace cobasis

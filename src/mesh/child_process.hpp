@@ -9,7 +9,8 @@ namespace cobasis {
 
 struct ChildLimits {
   std::size_t extra_memory = 0;  ///< bytes the child may allocate beyond what the process holds; 0: no limit
-  bool no_side_effects = false;  ///< the system refuses to start programs and to create, change or delete files
+  bool no_side_effects = false;  ///< the system refuses to start programs and to create, change or delete
+  ///< files, where it can (seccomp)
 };
 
 struct ChildResult {

@@ -1,8 +1,8 @@
 #include "mesh/distribute.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
-#include <numeric>
 #include <set>
 #include <unordered_map>
 

@@ -47,6 +47,8 @@ void flatten(RawMesh& raw) {
 
 /// Volume and centroid of every cell; turns plane cells counter-clockwise.
 void measure(RawMesh& raw, std::vector<double>& volume, std::vector<Point>& centroid) {
+  volume.clear();
+  centroid.clear();
   for (std::int32_t cell = 0; cell < raw.n_cells(); ++cell) {
     std::vector<Point> corners = corners_of(raw, cell);
     CellGeometry geometry = cell_geometry(raw.cell_type[cell], corners);
@@ -137,15 +139,8 @@ Point GlobalMesh::delta(std::int64_t face) const {
 GlobalMesh build_global_mesh(RawMesh raw, const std::vector<std::pair<std::string, std::string>>& periodic) {
   GlobalMesh mesh;
   if (raw.dimension == 2) flatten(raw);
-  std::vector<double> volume;
-  std::vector<Point> centroid;
-  measure(raw, volume, centroid);
-  const std::vector<std::int32_t> order = morton_order(centroid, raw.dimension);
-  for (const std::int32_t cell : order) {
-    mesh.volume.push_back(volume[cell]);
-    mesh.centroid.push_back(centroid[cell]);
-  }
-  mesh.raw = renumber(raw, order);
+  measure(raw, mesh.volume, mesh.centroid);
+  mesh.raw = renumber(raw, morton_order(mesh.centroid, raw.dimension));
   raw = {};
 
   std::vector<FaceLink> faces = connect(mesh.raw);
@@ -154,6 +149,7 @@ GlobalMesh build_global_mesh(RawMesh raw, const std::vector<std::pair<std::strin
   mesh.faces = std::move(joined.faces);
   mesh.shifts = std::move(joined.shifts);
   settle(mesh);
+  measure(mesh.raw, mesh.volume, mesh.centroid);  // in the new order, periodic nodes moved
   measure_faces(mesh);
   list_faces_of_cells(mesh);
   return mesh;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 #include <unordered_map>
 
 #include "math/errors.hpp"
@@ -239,7 +240,7 @@ RawMesh read_gmsh(const MeshRequest& request) {
   ChildLimits limits;
   if (script) {
     check_parameters(request.file, read_geo_script(request.file, request.trust_geo), request.parameters);
-    limits.no_side_effects = !request.trust_geo;
+    limits.no_side_effects = !request.trust_geo;  // should the check of the script have missed a command
   } else {
     if (!request.parameters.empty())
       throw InputError(

@@ -12,8 +12,9 @@ namespace cobasis {
 
 class Mpi {
  public:
-  Mpi(int& argc, char**& argv);  ///< MPI_Init
-  ~Mpi();                        ///< MPI_Finalize
+  Mpi(int& argc, char**& argv);  ///< all ranks; MPI_Init, unless that was done
+  explicit Mpi(MPI_Comm comm);   ///< the ranks of a communicator, which stays its owner's
+  ~Mpi();                        ///< MPI_Finalize by whom it was initialised
   Mpi(const Mpi&) = delete;
   Mpi& operator=(const Mpi&) = delete;
 
@@ -44,6 +45,7 @@ class Mpi {
 
  private:
   MPI_Comm comm_ = MPI_COMM_WORLD;
+  bool finalizes_ = false;
   int rank_ = 0;
   int size_ = 1;
 };

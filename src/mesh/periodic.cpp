@@ -18,6 +18,7 @@ namespace {
 
 struct Side {
   std::size_t face;  ///< index into the list of faces
+  std::array<std::int32_t, 4> nodes{};
   std::array<Point, 4> corners{};
   std::size_t n_corners = 0;
   Point centroid;
@@ -33,10 +34,9 @@ std::vector<Side> sides_of(const RawMesh& raw, const std::vector<FaceLink>& face
     if (faces[f].group != group || faces[f].right >= 0) continue;
     Side side;
     side.face = f;
-    std::array<std::int32_t, 4> nodes{};
-    side.n_corners = static_cast<std::size_t>(face_nodes(raw, faces[f].left, faces[f].left_local, nodes.data()));
+    side.n_corners = static_cast<std::size_t>(face_nodes(raw, faces[f].left, faces[f].left_local, side.nodes.data()));
     double shortest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < side.n_corners; ++i) side.corners[i] = raw.nodes[nodes[i]];
+    for (std::size_t i = 0; i < side.n_corners; ++i) side.corners[i] = raw.nodes[side.nodes[i]];
     for (std::size_t i = 0; i < side.n_corners; ++i)
       shortest = std::min(shortest, length(side.corners[(i + 1) % side.n_corners] - side.corners[i]));
     side.tolerance = 1e-3 * shortest;
@@ -98,6 +98,14 @@ std::vector<std::size_t> match(const std::vector<Side>& first, std::vector<Side>
   return partner;
 }
 
+/// Moves each corner of b to a corner of a, shifted.
+void move_onto(RawMesh& raw, const Side& a, const Side& b, const Point& shift) {
+  for (std::size_t i = 0; i < b.n_corners; ++i)
+    for (std::size_t j = 0; j < a.n_corners; ++j)
+      if (length(b.corners[i] - a.corners[j] - shift) <= a.tolerance)
+        raw.nodes[b.nodes[i]] = raw.nodes[a.nodes[j]] + shift;
+}
+
 /// A pair that joins cells already joined by another face keeps the direction out of the first-named group.
 void orient(std::vector<FaceLink>& joined, const std::vector<FaceLink>& others) {
   using Cells = std::pair<std::int32_t, std::int32_t>;
@@ -117,7 +125,7 @@ void orient(std::vector<FaceLink>& joined, const std::vector<FaceLink>& others) 
 
 }  // namespace
 
-PeriodicFaces join_periodic(const RawMesh& raw, std::vector<FaceLink> faces,
+PeriodicFaces join_periodic(RawMesh& raw, std::vector<FaceLink> faces,
                             const std::vector<std::pair<std::string, std::string>>& pairs) {
   PeriodicFaces result;
   std::vector<FaceLink> joined;
@@ -140,6 +148,7 @@ PeriodicFaces join_periodic(const RawMesh& raw, std::vector<FaceLink> faces,
     for (std::size_t i = 0; i < first.size(); ++i) {
       const FaceLink &a = faces[first[i].face], &b = faces[second[partner[i]].face];
       joined.push_back({a.left, b.left, a.left_local, b.left_local, -1, image});
+      move_onto(raw, first[i], second[partner[i]], shift);
       gone[first[i].face] = gone[second[partner[i]].face] = 1;
     }
   }

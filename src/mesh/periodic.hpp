@@ -14,9 +14,10 @@ struct PeriodicFaces {
   std::vector<Point> shifts;    ///< from the first-named group of each pair to the second
 };
 
-/// Matches the faces of each pair of groups by their corners. Throws InputError: unknown group, a group named twice,
-/// faces without a counterpart.
-PeriodicFaces join_periodic(const RawMesh& raw, std::vector<FaceLink> faces,
+/// Matches the faces of each pair of groups by their corners and moves those of the second group to exactly where the
+/// shift puts those of the first (a file's digits differ), so that cells stay closed through the shared face. Throws
+/// InputError: unknown group, a group named twice, faces without a counterpart.
+PeriodicFaces join_periodic(RawMesh& raw, std::vector<FaceLink> faces,
                             const std::vector<std::pair<std::string, std::string>>& pairs);
 
 }  // namespace cobasis

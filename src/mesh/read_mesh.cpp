@@ -8,6 +8,7 @@
 #include "mesh/partition.hpp"
 
 namespace cobasis {
+
 Mesh read_mesh(const MeshRequest& request, const Mpi& mpi) {
   GlobalMesh whole;
   std::vector<int> owner;

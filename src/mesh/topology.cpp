@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <span>
+#include <string>
 #include <tuple>
 
 #include "math/errors.hpp"

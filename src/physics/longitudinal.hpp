@@ -69,12 +69,12 @@ LongitudinalStar<Real> free_surface(const FaceL& l, const Real& p0) {
           .mass_speed = -z};
 }
 
-/// Flux through a face per unit area, in the face frame.
+/// Flux through a face per unit area, in the face frame. The convected parts are those without pressure.
 template <class G, class Real>
 struct Flux {
   Real mass;
-  Vector<G, Real> momentum;
-  Real energy;
+  Vector<G, Real> convected_momentum, momentum;
+  Real convected_energy, energy;
 };
 
 /// Eulerian flux of the phase that is at the face, (19).
@@ -83,10 +83,16 @@ Flux<G, Real> eulerian_flux(const LongitudinalStar<Real>& star, const FaceL& l, 
   const Real rho = select(star.from_left, l.rho, r.rho), E = select(star.from_left, l.E, r.E);
   const Real u = select(star.from_left, l.u.x, r.u.x), v = select(star.from_left, l.u.y, r.u.y);
   const Real P = select(star.from_left, l.P, r.P);
-  const Real mass = rho * star.r * star.u_f;
   const Real E_f = E + (star.P_f * star.u_f - P * u) / star.mass_speed;
-  Flux<G, Real> flux{mass, {mass * star.u_f + star.P_f, mass * v, {}}, mass * E_f + star.P_f * star.u_f};
-  if constexpr (G::dimension == 3) flux.momentum.z = mass * select(star.from_left, l.u.z, r.u.z);
+  Flux<G, Real> flux;
+  flux.mass = rho * star.r * star.u_f;
+  flux.convected_momentum.x = flux.mass * star.u_f;
+  flux.convected_momentum.y = flux.mass * v;
+  if constexpr (G::dimension == 3) flux.convected_momentum.z = flux.mass * select(star.from_left, l.u.z, r.u.z);
+  flux.momentum = flux.convected_momentum;
+  flux.momentum.x = flux.momentum.x + star.P_f;
+  flux.convected_energy = flux.mass * E_f;
+  flux.energy = flux.convected_energy + star.P_f * star.u_f;
   return flux;
 }
 

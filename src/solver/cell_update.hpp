@@ -104,8 +104,8 @@ void update(const Faces& faces, const AlignedVector<double>& volume, Phase& phas
             change[L::cobasis + c] - gather<Real>(flux + (L::flux_cobasis[0] + c) * pack_width, cobasis_at);
       if constexpr (Mixed) {
         const double* gain = phase.gain.data();
-        alpha_gain = alpha_gain + gather<Real>(gain, gain_at);
-        for (int c = L::momentum; c <= L::energy; ++c)
+        alpha_gain = alpha_gain + gather<Real>(gain + L::gain_alpha * pack_width, gain_at);
+        for (int c = 0; c < L::cobasis; ++c)
           change[c] = change[c] + gather<Real>(gain + c * pack_width, gain_at);
       }
     }

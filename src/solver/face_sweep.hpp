@@ -207,6 +207,26 @@ Face<G, K, Real> recall_side(const Phase& phase, const SlotPack<Real>& sides, in
   return s;
 }
 
+/// What a contact moves per unit area along the normal of its frame, in Cartesian components.
+template <class G, class Real>
+struct ContactFlux {
+  Real mass;
+  Vector<G, Real> momentum, convected_momentum, force;  ///< Eulerian; without the contact's own pressure; that pressure
+  Real energy, convected_energy, work;
+
+  ContactFlux(const LongitudinalStar<Real>& star, const Flux<G, Real>& flux, const Frame<G, Real>& frame)
+      : mass(flux.mass),
+        momentum(out_of_frame(frame, flux.momentum)),
+        force(star.P_star * frame.n),
+        energy(flux.energy),
+        convected_energy(flux.convected_energy + (star.P_f * star.u_f - star.P_star * star.u_star)),
+        work(star.P_star * star.u_star) {
+    auto convected = flux.convected_momentum;
+    convected.x = convected.x + (star.P_f - star.P_star);
+    convected_momentum = out_of_frame(frame, convected);
+  }
+};
+
 /// Everything a pair adds to the slots of one of its phases.
 template <class G, Kind K, class Real>
 struct PairSlots {
@@ -222,20 +242,16 @@ struct PairSlots {
     sides = slot_pack<Real>(phase.sides, 2 * L::n_side, own);
   }
 
-  void add_flux(const Real& weight, const Flux<G, Real>& f, const Vector<G, Real>& momentum) const {
-    flux.add(L::mass, weight * f.mass);
-    flux.add(L::momentum, weight * momentum.x);
-    flux.add(L::momentum + 1, weight * momentum.y);
-    if constexpr (G::dimension == 3) flux.add(L::momentum + 2, weight * momentum.z);
-    flux.add(L::energy, weight * f.energy);
-  }
-  void add_gain(int side, const Real& alpha, const Vector<G, Real>& momentum, const Real& energy) const {
+  /// What the cell on one side gains.
+  void add_gain(int side, const Real& mass, const Vector<G, Real>& momentum, const Real& energy,
+                const Real& alpha) const {
     const int c = side * L::gain_side;
-    gain.add(c, alpha);
-    gain.add(c + 1, momentum.x);
-    gain.add(c + 2, momentum.y);
-    if constexpr (G::dimension == 3) gain.add(c + 3, momentum.z);
-    gain.add(c + 1 + G::dimension, energy);
+    gain.add(c + L::mass, mass);
+    gain.add(c + L::momentum, momentum.x);
+    gain.add(c + L::momentum + 1, momentum.y);
+    if constexpr (G::dimension == 3) gain.add(c + L::momentum + 2, momentum.z);
+    gain.add(c + L::energy, energy);
+    gain.add(c + L::gain_alpha, alpha);
   }
   void add_cobasis(int side, const Cobasis<G, Real>& change) const {
     for_each_component(change, [&](int c, const Real& value) { flux.add(L::flux_cobasis[side] + c, value); });
@@ -262,30 +278,28 @@ void sweep_pair(Faces& faces, Phase& phase_l, Phase& phase_m, const PairList& li
     const auto m = recall_side<G, Km, Real>(phase_m, slots_m.sides, 1, right, frame);
 
     const LongitudinalStar<Real> star = longitudinal<Real>(l, m);
-    const Flux<G, Real> flux = eulerian_flux<G>(star, l, m);
+    const ContactFlux<G, Real> contact(star, eulerian_flux<G>(star, l, m), frame);
     const Real weight = gather<Real>(faces.area.data(), at) * load<Real>(&list.share[i]);
     const Real zero(0.0);
     const Real weight_l = select(star.from_left, weight, zero), weight_m = select(star.from_left, zero, weight);
-    const Vector<G, Real> momentum = out_of_frame(frame, flux.momentum);
-    slots_l.add_flux(weight_l, flux, momentum);
-    slots_m.add_flux(weight_m, flux, momentum);
 
-    // Lagrangian part, in the one cell the contact moves into: the right one if u* > 0
-    const auto push = [&](int side, const Real& w) {
-      const Vector<G, Real> force = (w * star.P_star) * frame.n;
-      const Real work = w * star.P_star * star.u_star;
-      slots_l.add_gain(side, w * star.u_star, (-1.0) * force, -work);
-      slots_m.add_gain(side, -(w * star.u_star), force, work);
-    };
-    push(0, weight_m);
-    push(1, weight_l);
+    // The phase at the face leaves its own cell and enters the other, where the contact moves; there the other phase
+    // gives way. (19) and the Lagrangian part, summed per cell and phase before anything is rounded.
+    slots_l.add_gain(0, -(weight_l * contact.mass), (-1.0) * (weight_l * contact.momentum + weight_m * contact.force),
+                     -(weight_l * contact.energy + weight_m * contact.work), weight_m * star.u_star);
+    slots_l.add_gain(1, weight_l * contact.mass, weight_l * contact.convected_momentum,
+                     weight_l * contact.convected_energy, weight_l * star.u_star);
+    slots_m.add_gain(1, weight_m * contact.mass, weight_m * contact.momentum + weight_l * contact.force,
+                     weight_m * contact.energy + weight_l * contact.work, -(weight_l * star.u_star));
+    slots_m.add_gain(0, -(weight_m * contact.mass), (-weight_m) * contact.convected_momentum,
+                     -(weight_m * contact.convected_energy), -(weight_m * star.u_star));
 
     [[maybe_unused]] ShearStar<G, Real> shear;
     if constexpr (T == Tangent::bonded) {
       shear = bonded_shear(l, m);
       const Vector<G, Real> force = weight * out_of_frame(frame, shear.tau);
-      slots_l.add_gain(0, zero, force, weight * dot(shear.tau, shear.w_l));
-      slots_m.add_gain(1, zero, (-1.0) * force, -(weight * dot(shear.tau, shear.w_r)));
+      slots_l.add_gain(0, zero, force, weight * dot(shear.tau, shear.w_l), zero);
+      slots_m.add_gain(1, zero, (-1.0) * force, -(weight * dot(shear.tau, shear.w_r)), zero);
     } else {
       if constexpr (Kl == Kind::solid) shear.w_l = free_surface_velocity(l, Real(1.0));
       if constexpr (Km == Kind::solid) shear.w_r = free_surface_velocity(m, Real(-1.0));
@@ -340,18 +354,14 @@ void sweep_free_surface(Faces& faces, Phase& phase, double p0, const PairList& l
       if constexpr (G::dimension == 3) l.tau.z = outward * l.tau.z;
     }
     const LongitudinalStar<Real> star = free_surface<Real>(l, Real(p0));
-    const Flux<G, Real> flux = eulerian_flux<G>(star, l, l);
+    const ContactFlux<G, Real> contact(star, eulerian_flux<G>(star, l, l), frame);
     const Real weight = gather<Real>(faces.area.data(), at) * load<Real>(&list.share[i]);
     const Real zero(0.0);
     const Real advancing = select(star.from_left, weight, zero), retreating = select(star.from_left, zero, weight);
-    slots.add_flux(outward * advancing, flux, out_of_frame(frame, flux.momentum));
-
-    const auto push = [&](const PairSlots<G, K, Real>& to, int side, const Real& w) {
-      const Real force = -(w * star.P_star);
-      to.add_gain(side, w * star.u_star, force * frame.n, force * star.u_star);
-    };
-    push(own, 0, retreating);
-    push(other, 1, advancing);
+    own.add_gain(0, -(advancing * contact.mass), (-1.0) * (advancing * contact.momentum + retreating * contact.force),
+                 -(advancing * contact.energy + retreating * contact.work), retreating * star.u_star);
+    other.add_gain(1, advancing * contact.mass, advancing * contact.convected_momentum,
+                   advancing * contact.convected_energy, advancing * star.u_star);
 
     if constexpr (K == Kind::solid) {
       const Cobasis<G, Real> e = load_cobasis<G, Real>(phase, inside), e_f = stretched(e, frame, star.r);

@@ -26,10 +26,10 @@ struct Layout {
   static constexpr int n_primitive = 4 + D + n_metric;
 
   /// What a face does to a phase: flux of mass, momentum, energy (left to right), cobasis fluctuations of the left and
-  /// of the right cell. In mixed faces also, per side, the gain of alpha, momentum, energy by contacts.
+  /// of the right cell. In mixed faces also, per side, the gain of mass, momentum, energy, alpha by contacts.
   static constexpr int flux_cobasis[2] = {2 + D, 2 + D + n_cobasis};
   static constexpr int n_flux = 2 + D + 2 * n_cobasis;
-  static constexpr int gain_side = 2 + D;
+  static constexpr int gain_alpha = 2 + D, gain_side = 3 + D;
   static constexpr int n_gain = 2 * gain_side;
   /// Traction and speeds of both sides, kept where a face's state serves several pairs: P, c1 (, tau_12, tau_13, c_s).
   static constexpr int n_side = K == Kind::solid ? 2 + D : 2;

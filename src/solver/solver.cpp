@@ -221,7 +221,7 @@ void Solver::book_boundaries(double dt) {
       for (int c = 0; c < D + 2; ++c) booked_[k][c][i] += dt * flux[c * pack_width];
       if (slot < first_mixed) continue;
       const double* gain = phase.gain.data() + slot_base(gain_slot(slot, first_mixed), kernels.n_gain);
-      for (int c = 1; c < D + 2; ++c) booked_[k][c][i] -= dt * gain[c * pack_width];
+      for (int c = 0; c < D + 2; ++c) booked_[k][c][i] -= dt * gain[c * pack_width];
     }
   }
 }

@@ -76,7 +76,8 @@ void VolumeExchange::share_alpha(const Mesh& mesh, Fields& fields) {
   }
 }
 
-void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields& fields, std::int32_t cell, int k) {
+void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields& fields, std::int32_t cell, int k,
+                             bool forced) {
   const auto alpha = [&](int phase, std::int32_t at) { return fields.phases[phase].alpha[at]; };
   int j = k == 0 ? 1 : 0;
   for (int phase = 0; phase < fields.n_phases(); ++phase)
@@ -96,6 +97,7 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
     const std::int32_t d = entry & 1 ? faces.left[face] : faces.right[face];
     if (d == cell || !(alpha(k, d) > own)) continue;
     if (better(d, richest)) richest = d;
+    if (forced && alpha(k, d) < least_to_give) continue;  // what is inadmissible needs a healthy partner
     if (alpha(j, d) >= least_to_give && alpha(j, d) * fields.volume[d] >= volume && better(d, donor)) donor = d;
   }
   const bool dust_only = donor < 0 && std::fabs(own) < dust_threshold && richest >= 0;
@@ -136,7 +138,7 @@ void VolumeExchange::ask(const Mesh& mesh, const Faces& faces, const Fields& fie
       const bool something = alpha != 0 || (!fields.phases[k].is_void && fields.phases[k].conserved[0][cell] != 0);
       const bool is_forced = next_forced != forced.end() && *next_forced == std::pair(cell, k);
       if (is_forced) ++next_forced;
-      if (something && (alpha < threshold || is_forced)) request(mesh, faces, fields, cell, k);
+      if (something && (alpha < threshold || is_forced)) request(mesh, faces, fields, cell, k, is_forced);
     }
   }
 }

@@ -59,7 +59,7 @@ class VolumeExchange {
   void share_alpha(const Mesh& mesh, Fields& fields);
   void ask(const Mesh& mesh, const Faces& faces, const Fields& fields, double dt,
            const std::vector<std::pair<std::int32_t, int>>& forced);
-  void request(const Mesh& mesh, const Faces& faces, const Fields& fields, std::int32_t cell, int k);
+  void request(const Mesh& mesh, const Faces& faces, const Fields& fields, std::int32_t cell, int k, bool forced);
   void deliver(const Mesh& mesh, const Fields& fields);
   void serve(const Mesh& mesh, Fields& fields);
   void settle(const Mesh& mesh, Fields& fields, const Request& request, Answer answer, Content content);

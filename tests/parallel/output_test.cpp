@@ -109,7 +109,8 @@ Setup wavy_setup(const std::filesystem::path& directory) {
   setup.lines = {{"across", {0, 0.5, 0}, {1.125, 0.5, 0}, 55}, {"diagonal", {0.01, 0.02, 0}, {1.1, 0.85, 0}, 40}};
   setup.probes = {{"gauge", {0.5, 0.5, 0}}};
   setup.integrals = {{"top", Extent{0, 0.5, Axis::y}},
-                     {"far", Extent{0, 0.3, Axis::x}},
+                     {"low", Extent{0, 0.9, Axis::y}},
+                     {"high", Extent{0, 0.1, Axis::y}},
                      {"median", Quantile{0, 0.5, Axis::y}},
                      {"r95", Quantile{0, 0.95, Axis::radial}}};
   return setup;
@@ -142,12 +143,12 @@ TEST_CASE("tables and integrals have the same bits however the cells are distrib
   const SharedScratch scratch;
   const Results whole = run(scratch.path / "whole", [](std::int64_t, int) { return 0; });
   REQUIRE(table(whole.across).size() == 56);
-  REQUIRE(whole.integrals.size() == 4);
+  REQUIRE(whole.integrals.size() == 5);
   for (const double value : whole.integrals) REQUIRE((value > 0 && value < 1.2));
   const std::vector<Partition> partitions = {
       {},
-      [](std::int64_t cell, int n) { return static_cast<int>(cell % n); },
-      [](std::int64_t cell, int n) { return static_cast<int>(cell * cell % 7 % n); }};
+      [](std::int64_t cell, int n) { return static_cast<int>(cell * cell % 7 % n); },
+      [](std::int64_t cell, int n) { return static_cast<int>((cell + cell / 9) % n); }};  // every face between ranks
   for (std::size_t p = 0; p < partitions.size(); ++p) {
     CAPTURE(p);
     const Results parts = run(scratch.path / std::to_string(p), partitions[p]);

@@ -144,12 +144,12 @@ TEST_CASE("the history has step, time, dt, totals and integrals, numbers that re
   CHECK(output.needs_alpha_for_history());
   CHECK(output.needs_fields_for_history());
   const double total = 0.1 + 0.2;
-  output.history(three_phase_state(4, 0.25), {{"mass.copper", "kg", total}});
-  output.history(three_phase_state(4, 0.75), {{"mass.copper", "kg", 1 / 3.0}});
+  output.history(three_phase_state(4, 0.25), {{"energy.copper", "J", total}});
+  output.history(three_phase_state(4, 0.75), {{"energy.copper", "J", 1 / 3.0}});
   output.finish();
 
   const auto history = table(read(scratch.path / "history.csv"));
-  CHECK(history.at(0) == std::vector<std::string>{"step", "time", "dt", "mass.copper", "spread"});
+  CHECK(history.at(0) == std::vector<std::string>{"step", "time", "dt", "energy.copper", "spread"});
   REQUIRE(history.size() == 3);
   CHECK(history[1][0] == "7");
   CHECK(history[1][1] == "0.25");
@@ -167,9 +167,11 @@ TEST_CASE("the history has step, time, dt, totals and integrals, numbers that re
   CHECK(cell_of(gauge, 1, "density.copper") == "101.125");
   CHECK(cell_of(gauge, 1, "density.gas") == "nan");
 
+  output.write(three_phase_state(4, 1));  // energy.copper of a cell is per mass
   const std::string units = read(scratch.path / "units.csv");
-  CHECK_THAT(units, Catch::Contains("mass.copper,kg\n"));
-  CHECK_THAT(units, Catch::Contains("spread,m\n"));
+  CHECK_THAT(units, Catch::Contains("\nhistory,energy.copper,J\n"));
+  CHECK_THAT(units, Catch::Contains("\nfields,energy.copper,J/kg\n"));
+  CHECK_THAT(units, Catch::Contains("\nhistory,spread,m\n"));
 }
 
 TEST_CASE("the locale does not reach the numbers") {

@@ -1,9 +1,14 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <random>
+#include <sstream>
 
+#include "app/atomic_file.hpp"
 #include "app/mixture.hpp"
 #include "app/output.hpp"
 #include "app/sampler.hpp"
 #include "math/errors.hpp"
+#include "mesh/read_mesh.hpp"
 #include "output_scene.hpp"
 
 namespace cobasis::test {
@@ -44,6 +49,82 @@ TEST_CASE("samples along any direction are those of the cells the points lie in"
   }
 }
 
+/// n^3 hexahedra in the unit cube as MSH 2.2; inner corners moved by up to a quarter of a cell, so that faces are
+/// warped.
+std::string warped_msh(int n) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> shift(-0.25, 0.25);
+  std::ostringstream nodes, elements;
+  const auto node = [&](int i, int j, int k) { return 1 + i + (n + 1) * (j + (n + 1) * k); };
+  const auto inner = [&](int i) { return i > 0 && i < n; };
+  for (int k = 0; k <= n; ++k) {
+    for (int j = 0; j <= n; ++j) {
+      for (int i = 0; i <= n; ++i) {
+        const bool moves = inner(i) && inner(j) && inner(k);
+        nodes << node(i, j, k);
+        for (const int c : {i, j, k}) nodes << ' ' << (c + (moves ? shift(random) : 0)) / n;
+        nodes << '\n';
+      }
+    }
+  }
+  int count = 0;
+  const auto face = [&](int a, int b, int c, int d) {
+    elements << ++count << " 3 2 1 1 " << a << ' ' << b << ' ' << c << ' ' << d << '\n';
+  };
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      for (const int e : {0, n}) {
+        face(node(e, i, j), node(e, i + 1, j), node(e, i + 1, j + 1), node(e, i, j + 1));
+        face(node(i, e, j), node(i + 1, e, j), node(i + 1, e, j + 1), node(i, e, j + 1));
+        face(node(i, j, e), node(i + 1, j, e), node(i + 1, j + 1, e), node(i, j + 1, e));
+      }
+    }
+  }
+  for (int k = 0; k < n; ++k) {
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        elements << ++count << " 5 2 2 1";
+        for (const int top : {0, 1}) {
+          elements << ' ' << node(i, j, k + top) << ' ' << node(i + 1, j, k + top) << ' ' << node(i + 1, j + 1, k + top)
+                   << ' ' << node(i, j + 1, k + top);
+        }
+        elements << '\n';
+      }
+    }
+  }
+  std::ostringstream text;
+  text << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"outside\"\n3 2 \"inside\"\n"
+       << "$EndPhysicalNames\n$Nodes\n"
+       << (n + 1) * (n + 1) * (n + 1) << '\n'
+       << nodes.str() << "$EndNodes\n"
+       << "$Elements\n"
+       << count << '\n'
+       << elements.str() << "$EndElements\n";
+  return text.str();
+}
+
+TEST_CASE("no point falls between warped faces, none far from its cell, none from outside is taken in") {
+  const Scratch scratch;
+  MeshRequest request;
+  request.file = (scratch.path / "warped.msh").string();
+  write_atomically(request.file, warped_msh(6));
+  const Mesh mesh = read_mesh(request, world());
+  for (int line = 0; line < 40; ++line) {
+    const double a = line / 39.0;
+    const auto points = points_on_line({0, a, 1 - a * a}, {1, 1 - a, a * a}, 500);
+    const auto cells = cells_at(mesh, points);
+    REQUIRE(cells.size() == points.size());
+    double farthest = 0;  // squared, in cells
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const Point away = 6.0 * (points[p] - mesh.centroid[cells[p]]);
+      farthest = std::max(farthest, dot(away, away));
+    }
+    CHECK(farthest < 1.2 * 1.2);
+  }
+  CHECK_THROWS_AS(cells_at(mesh, {{0.5, 0.5, 1.0001}}), InputError);
+  CHECK_THROWS_AS(cells_at(mesh, {{0.5, 1.5, 0.5}}), InputError);
+}
+
 TEST_CASE("a point outside the mesh is refused with its line and place") {
   const Mesh mesh = squares(4, 3, 1);
   const auto outside = GENERATE(Point{4.001, 1, 0}, Point{-1e-6, 1, 0}, Point{2, 3.5, 0}, Point{2, 1, 0.25});
@@ -53,9 +134,11 @@ TEST_CASE("a point outside the mesh is refused with its line and place") {
 }
 
 TEST_CASE("the far side of a periodic face is outside, the near side inside") {
-  const Mesh mesh = squares(4, 2, 1, true);
+  Mesh mesh = squares(4, 2, 1, true);
   CHECK(cells_at(mesh, points_on_line({0, 0.5, 0}, {4, 0.5, 0}, 9)) == std::vector{0, 0, 0, 1, 1, 2, 2, 3, 3});
   CHECK_THROWS_AS(cells_at(mesh, {{4.01, 0.5, 0}}), InputError);
+  for (auto& id : mesh.global_id) id = 7 - id;
+  CHECK(cells_at(mesh, {{3, 0.5, 0}}) == std::vector{3});
 }
 
 TEST_CASE("the mixture is weighted by volume for stress and pressure, by mass for velocity; a void is its pressure") {

@@ -78,7 +78,7 @@ inline std::string error_of_text(const std::string& name, const std::string& tex
 
 /// nx x ny squares or, unless recombined, triangles on [0,1] x [0,ny/nx]; groups left right bottom top.
 inline std::string strip_geo(int nx, int ny, bool recombine = true) {
-  return "DefineConstant[ nx = " + std::to_string(nx) + ", ny = {" + std::to_string(ny) + R"(, Name "Parameters/ny"} ];
+  return fmt::format("DefineConstant[ nx = {}, ny = {{{}, Name \"Parameters/ny\"}} ];", nx, ny) + R"(
 h = ny / nx;
 Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, h, 0}; Point(4) = {0, h, 0};
 Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
@@ -92,8 +92,7 @@ Physical Curve("top") = {3}; Physical Curve("left") = {4};
 
 /// A box meshed with tetrahedra of size h; one group "wall".
 inline std::string tetrahedra_geo(double h) {
-  using namespace std::string_literals;
-  return "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1}; Mesh.MeshSizeMax = "s + std::to_string(h) + R"(;
+  return "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1}; Mesh.MeshSizeMax = " + std::to_string(h) + R"(;
 Physical Surface("wall") = {1, 2, 3, 4, 5, 6}; Physical Volume("body") = {1};
 )";
 }

@@ -1,7 +1,4 @@
-#include "app/suggestion.hpp"
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include "math/suggestion.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -45,10 +42,11 @@ std::optional<std::string> nearest_name(std::string_view word, std::span<const s
 }
 
 std::string allowed_names(std::string_view word, std::span<const std::string> candidates) {
-  if (candidates.empty()) return "allowed: none";
+  std::string text = "allowed: ";
+  for (const std::string& candidate : candidates) text += (&candidate == &candidates.front() ? "" : ", ") + candidate;
+  if (candidates.empty()) text += "none";
   const auto nearest = nearest_name(word, candidates);
-  return fmt::format("allowed: {}{}", fmt::join(candidates, ", "),
-                     nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : "");
+  return nearest ? text + "; did you mean \"" + *nearest + "\"?" : text;
 }
 
 }  // namespace cobasis
