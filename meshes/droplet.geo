@@ -30,11 +30,12 @@ m = Round(2 * radius / (3 * h));       // cells along an edge of the core, and a
 spacing = r1 * Pi / 4 / m;             // of the prisms' triangles
 
 // In the plane of the wall: 1 centre; 2-4 the core; 5-7 on the cylinder; 8-10 on r1; 11-12 on r2.
-// The core's proportions give the largest smallest cell, which sets the time step.
+// The core is nearly round: a squarer one has larger smallest cells, and so larger time steps, but the jelly then spreads
+// visibly faster along its diagonal.
 Point(1) = {0, 0, 0};
-Point(2) = {0.64 * radius, 0, 0};
-Point(3) = {0.54 * radius, 0.54 * radius, 0};
-Point(4) = {0, 0.64 * radius, 0};
+Point(2) = {0.7 * radius, 0, 0};
+Point(3) = {0.5 * radius, 0.5 * radius, 0};
+Point(4) = {0, 0.7 * radius, 0};
 For i In {0:2}
   Point(5 + i) = {radius * Cos(i * Pi / 4), radius * Sin(i * Pi / 4), 0};
   Point(8 + i) = {r1 * Cos(i * Pi / 4), r1 * Sin(i * Pi / 4), 0, spacing};
@@ -65,7 +66,7 @@ If (element == 8)
   Transfinite Surface {1:5};
   Recombine Surface {1:5};
 
-  // Layers grow by 15 % from the wall up to h, then are shrunk together to end at the cylinder's height.
+  // Layers grow by 15 % from the wall up to h and are scaled together to end at the cylinder's height.
   z = 0;
   thickness = wall * h;
   levels[] = {};

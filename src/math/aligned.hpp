@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -39,6 +40,33 @@ class RawStorage {
     void operator()(double* p) const { std::free(p); }
   };
   std::unique_ptr<double, Free> data_;
+};
+
+/// A list of fixed capacity with room for a pack beyond its end; nothing is initialised.
+template <class T>
+class CompactList {
+ public:
+  CompactList() = default;
+  explicit CompactList(std::size_t capacity) : storage_((capacity + slack) * sizeof(T) / sizeof(double) + 1) {}
+
+  std::int32_t size() const { return size_; }
+  T* data() { return reinterpret_cast<T*>(storage_.data()); }
+  const T* data() const { return reinterpret_cast<const T*>(storage_.data()); }
+  T& operator[](std::int32_t i) { return data()[i]; }
+  const T& operator[](std::int32_t i) const { return data()[i]; }
+  T* end() { return data() + size_; }
+  void clear() { size_ = 0; }
+  void push(const T& value) { data()[size_++] = value; }
+  void grow(std::int32_t n) { size_ += n; }  ///< by what was written at end()
+  /// Repeats the last entry up to a multiple of `width`.
+  void fill(int width) {
+    while (size_ % width != 0) push(data()[size_ - 1]);
+  }
+
+ private:
+  static constexpr std::size_t slack = 64;
+  RawStorage storage_;
+  std::int32_t size_ = 0;
 };
 
 }  // namespace cobasis

@@ -10,6 +10,9 @@
 #include <immintrin.h>
 #endif
 
+/// A loop over cells or faces: all that it calls is inlined, so that packs stay in registers.
+#define COBASIS_KERNEL [[gnu::flatten]]
+
 namespace cobasis {
 
 using Pack = std::experimental::native_simd<double>;
@@ -83,6 +86,30 @@ template <class Real> void scatter(const Real& value, double* to, const Indices<
     for (int i = 0; i < lanes<Real>; ++i) to[at[i]] = value[i];
 #endif
   }
+}
+
+/// Lanes with x > 0, as bits.
+inline unsigned positive_lanes(const Pack& x) {
+#if defined(__AVX512F__)
+  return _mm512_cmp_pd_mask(static_cast<__m512d>(x), _mm512_setzero_pd(), _CMP_GT_OQ);
+#else
+  unsigned bits = 0;
+  for (int i = 0; i < pack_width; ++i) bits |= static_cast<unsigned>(x[i] > 0) << i;
+  return bits;
+#endif
+}
+
+/// Writes the chosen lanes one after the other; a whole pack of memory must be there.
+inline void store_chosen(unsigned bits, const Pack& x, double* to) {
+#if defined(__AVX512F__)
+  _mm512_storeu_pd(to, _mm512_maskz_compress_pd(static_cast<__mmask8>(bits), static_cast<__m512d>(x)));
+#else
+  for (int i = 0; i < pack_width; ++i)
+    if (bits >> i & 1) *to++ = x[i];
+#endif
+}
+inline void store_chosen(unsigned bits, const Indices<Pack>& x, std::int32_t* to) {
+  for (; bits != 0; bits &= bits - 1) *to++ = x[std::countr_zero(bits)];
 }
 
 /// Cube root of a positive normal number, without branches: exponent by integer arithmetic, then Halley's iteration,

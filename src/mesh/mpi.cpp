@@ -11,9 +11,6 @@ namespace {
 
 constexpr std::int64_t chunk = 1 << 30;  // MPI counts are int
 
-/// x rounded to a multiple of 2^-shift, in such multiples.
-__int128 to_fixed(double x, int shift) { return static_cast<__int128>(std::nearbyint(std::ldexp(x, shift))); }
-
 template <class T>
 std::vector<T> gather_values(std::span<const T> values, MPI_Datatype type, MPI_Comm comm, int rank, int size) {
   const int count = static_cast<int>(values.size());
@@ -80,22 +77,26 @@ double Mpi::exact_sum(std::span<const double> values) const {
   if (largest == 0) return 0;
   if (largest == infinity) return std::numeric_limits<double>::quiet_NaN();
 
+  // Three limbs of 30 bits: each step of the splitting is exact, and 64-bit sums have room for 2^33 values.
+  constexpr int limb_bits = 30;
+  constexpr double limb = 1 << limb_bits;
   int exponent = 0;
   std::frexp(largest, &exponent);
-  const int shift = 90 - exponent;  // every value is below 2^90 multiples: room for 2^37 of them
-  __int128 total = 0;
-  for (const double x : values) total += to_fixed(x, shift);
-
-  // Four 32-bit limbs, the top one signed: sums over ranks cannot overflow 64 bits.
-  std::array<std::int64_t, 4> limbs{};
-  for (int i = 0; i < 4; ++i) {
-    limbs[i] = static_cast<std::int64_t>(total >> (32 * i));
-    if (i < 3) limbs[i] &= 0xffffffff;
+  const int half = (limb_bits - exponent) / 2;  // in two factors: one may be beyond the range of double
+  const double scale = std::ldexp(1.0, half), rest_of_scale = std::ldexp(1.0, limb_bits - exponent - half);
+  std::array<std::int64_t, 3> limbs{};
+  for (const double x : values) {
+    double rest = x * scale * rest_of_scale;
+    for (std::int64_t& sum : limbs) {
+      const auto digits = static_cast<std::int64_t>(rest);
+      sum += digits;
+      rest = (rest - static_cast<double>(digits)) * limb;
+    }
   }
-  MPI_Allreduce(MPI_IN_PLACE, limbs.data(), 4, MPI_INT64_T, MPI_SUM, comm_);
-  total = 0;
-  for (int i = 3; i >= 0; --i) total = total * (static_cast<__int128>(1) << 32) + limbs[i];
-  return std::ldexp(static_cast<double>(total), -shift);
+  MPI_Allreduce(MPI_IN_PLACE, limbs.data(), 3, MPI_INT64_T, MPI_SUM, comm_);
+  __int128 total = 0;
+  for (const std::int64_t sum : limbs) total = total * (std::int64_t{1} << limb_bits) + sum;
+  return std::ldexp(static_cast<double>(total), exponent - 3 * limb_bits);
 }
 
 std::vector<double> Mpi::gather(std::span<const double> values) const {

@@ -30,7 +30,7 @@ class Mpi {
   void barrier() const;
 
   /// The sum over all ranks of all values, independent of their order and of their distribution over ranks: every value
-  /// is rounded to a multiple of 2^-90 of the largest magnitude and summed in integers.
+  /// is cut to a multiple of about 2^-90 of the largest magnitude and summed in integers.
   double exact_sum(std::span<const double> values) const;
 
   /// All ranks' values on rank 0, concatenated by rank (empty elsewhere).

@@ -114,10 +114,14 @@ SolidFace<G, Real> mirrored(SolidFace<G, Real> s) {
   return s;
 }
 
+/// The larger of two speeds; not a number if one of them is not.
+template <class Real>
+Real faster(const Real& a, const Real& b) { return select((a > b) || (a != a), a, b); }
+
 /// |u_n| + the fastest wave: bounds the step.
 template <class G, class Real>
 Real signal_speed(const FluidFace<G, Real>& s) { return magnitude(s.u.x) + s.c1; }
 template <class G, class Real>
-Real signal_speed(const SolidFace<G, Real>& s) { return magnitude(s.u.x) + larger(s.c1, s.cs); }
+Real signal_speed(const SolidFace<G, Real>& s) { return magnitude(s.u.x) + faster(s.c1, s.cs); }
 
 }  // namespace cobasis

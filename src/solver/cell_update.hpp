@@ -11,7 +11,7 @@ using BadCells = std::vector<std::int32_t>;
 
 /// Primitive state of the listed cells. `n` need not be a multiple of the pack width; the list is padded to one.
 template <class G, Kind K, class Real, class EquationOfState>
-void primitives(Phase& phase, const EquationOfState& eos, const AlignedVector<std::int32_t>& cells, std::int32_t n,
+COBASIS_KERNEL void primitives(Phase& phase, const EquationOfState& eos, const AlignedVector<std::int32_t>& cells, std::int32_t n,
                 BadCells& bad) {
   using L = Layout<G, K>;
   for (std::int32_t i = 0; i < n; i += lanes<Real>) {
@@ -53,7 +53,7 @@ void primitives(Phase& phase, const EquationOfState& eos, const AlignedVector<st
 
 /// 2 V / sum over faces of A lambda, the smallest over the listed cells [s]; 0 if a wave speed is not a real number.
 template <class Real>
-double largest_step(const Faces& faces, const AlignedVector<double>& volume, const AlignedVector<std::int32_t>& cells,
+COBASIS_KERNEL double largest_step(const Faces& faces, const AlignedVector<double>& volume, const AlignedVector<std::int32_t>& cells,
                     std::int32_t n) {
   Real smallest(infinity);
   for (std::int32_t i = 0; i < n; i += lanes<Real>) {
@@ -75,7 +75,7 @@ double largest_step(const Faces& faces, const AlignedVector<double>& volume, con
 
 /// Advances a phase in the listed owned cells by dt. Mixed: the volume fraction changes too, and contacts do work.
 template <class G, Kind K, class Real, bool Mixed>
-void update(const Faces& faces, const AlignedVector<double>& volume, Phase& phase,
+COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volume, Phase& phase,
             const AlignedVector<std::int32_t>& cells, std::int32_t n, double dt) {
   using L = Layout<G, K>;
   const std::int32_t first_mixed = first_mixed_slot(faces);

@@ -13,9 +13,9 @@ namespace cobasis {
 /// Faces of one ordered pair of phases (l left, m right, l != m) with their S_lm. For a void partner `side` says on
 /// which side the material is (0 left, 1 right).
 struct PairList {
-  AlignedVector<std::int32_t> face;
-  AlignedVector<double> share;
-  AlignedVector<std::int32_t> side;
+  CompactList<std::int32_t> face;
+  CompactList<double> share;
+  std::int32_t side = 0;
 };
 
 template <class G, class Real>
@@ -100,7 +100,7 @@ inline std::int32_t gain_slot(std::int32_t slot, std::int32_t first_mixed) {
 /// A face raises its fastest signal; several phases and pairs may speak for it.
 template <class Real>
 void raise_fastest(Faces& faces, const Indices<Real>& at, const Real& speed) {
-  scatter(larger(gather<Real>(faces.fastest.data(), at), speed), faces.fastest.data(), at);
+  scatter(faster(gather<Real>(faces.fastest.data(), at), speed), faces.fastest.data(), at);
 }
 
 enum class Beyond { cell, mirror };  ///< what lies right of a face: another cell, or the mirror image of the left one
@@ -108,9 +108,9 @@ enum class Beyond { cell, mirror };  ///< what lies right of a face: another cel
 /// Riemann problem of a phase with itself. Pure: the whole face. Mixed: its share S_kk (possibly 0); the traction and
 /// speeds of both sides are kept for the pairs that the face's phases form.
 template <class G, Kind K, class Real, bool Mixed, Beyond B>
-void sweep_same(Faces& faces, Phase& phase, Segment segment) {
+COBASIS_KERNEL void sweep_same(Faces& faces, Phase& phase, Segment segment) {
   using L = Layout<G, K>;
-  const AlignedVector<std::int32_t>& list = Mixed ? phase.lists.mixed : phase.lists.pure;
+  const CompactList<std::int32_t>& list = Mixed ? phase.lists.mixed : phase.lists.pure;
   const std::int32_t first_slot = Mixed ? first_mixed_slot(faces) : pack_width;
   for (std::int32_t i = segment.first; i < segment.last; i += lanes<Real>) {
     const Indices<Real> at = load_indices<Real>(&list[i]);
@@ -126,7 +126,7 @@ void sweep_same(Faces& faces, Phase& phase, Segment segment) {
     Face<G, K, Real> r;
     if constexpr (B == Beyond::mirror) r = mirrored(l);
     else r = load_face_state<G, K, Real>(phase, right, frame);
-    raise_fastest(faces, at, larger(signal_speed(l), signal_speed(r)));
+    raise_fastest(faces, at, faster(signal_speed(l), signal_speed(r)));
 
     const LongitudinalStar<Real> star = longitudinal<Real>(l, r);
     Flux<G, Real> flux = eulerian_flux<G>(star, l, r);
@@ -267,7 +267,7 @@ enum class Tangent { free, bonded };  ///< sliding phases, a fluid or a void are
 
 /// Contact of two different phases, l left and m right, along the face normal.
 template <class G, Kind Kl, Kind Km, Tangent T, class Real>
-void sweep_pair(Faces& faces, Phase& phase_l, Phase& phase_m, const PairList& list, Segment segment) {
+COBASIS_KERNEL void sweep_pair(Faces& faces, Phase& phase_l, Phase& phase_m, const PairList& list, Segment segment) {
   for (std::int32_t i = segment.first; i < segment.last; i += lanes<Real>) {
     const Indices<Real> at = load_indices<Real>(&list.face[i]);
     const Indices<Real> left = lookup<Real>(faces.left.data(), at), right = lookup<Real>(faces.right.data(), at);
@@ -323,53 +323,39 @@ void sweep_pair(Faces& faces, Phase& phase_l, Phase& phase_m, const PairList& li
 
 /// A material before a void at pressure p0: a free surface. Solved along the material's outward normal.
 template <class G, Kind K, class Real>
-void sweep_free_surface(Faces& faces, Phase& phase, double p0, const PairList& list, Segment segment) {
-  using L = Layout<G, K>;
+COBASIS_KERNEL void sweep_free_surface(Faces& faces, Phase& phase, double p0, const PairList& list, Segment segment) {
   for (std::int32_t i = segment.first; i < segment.last; i += lanes<Real>) {
     const Indices<Real> at = load_indices<Real>(&list.face[i]);
-    Indices<Real> inside = lookup<Real>(faces.left.data(), at), outside = lookup<Real>(faces.right.data(), at);
-    std::array<double, lanes<Real>> sign;
-    for (int j = 0; j < lanes<Real>; ++j) {
-      sign[j] = list.side[i + j] ? -1 : 1;
-      if (list.side[i + j]) std::swap(inside[j], outside[j]);
-    }
+    const auto& first = list.side == 0 ? faces.left : faces.right;
+    const auto& second = list.side == 0 ? faces.right : faces.left;
+    const Indices<Real> inside = lookup<Real>(first.data(), at), outside = lookup<Real>(second.data(), at);
     Frame<G, Real> frame = load_frame<G, Real>(faces, at);
-    const Real outward = load<Real>(sign.data());
+    const Real outward(list.side == 0 ? 1.0 : -1.0);
     frame.n = outward * frame.n;
     frame.t1 = outward * frame.t1;  // keeps the frame right-handed; only t1's line matters
 
-    PairSlots<G, K, Real> slots(faces, phase, at);
-    // own[s], other[s]: the same slots, with the sides exchanged where the material lies right of the face
-    const auto exchanged = [&](SlotPack<Real> pack, int distance) {
-      for (int j = 0; j < lanes<Real>; ++j) pack.at[j] += list.side[i + j] * distance * pack_width;
-      return pack;
-    };
-    PairSlots<G, K, Real> own = slots, other = slots;
-    own.sides = exchanged(slots.sides, L::n_side);
-    own.gain = exchanged(slots.gain, L::gain_side), other.gain = exchanged(slots.gain, -L::gain_side);
-    own.flux = exchanged(slots.flux, L::n_cobasis), other.flux = exchanged(slots.flux, -L::n_cobasis);
+    const PairSlots<G, K, Real> slots(faces, phase, at);
+    const int own = list.side, other = 1 - own;
+    auto l = recall_side<G, K, Real>(phase, slots.sides, own, inside, frame);
+    if constexpr (K == Kind::solid && G::dimension == 3) l.tau.z = outward * l.tau.z;  // t2 did not turn with n and t1
 
-    auto l = recall_side<G, K, Real>(phase, own.sides, 0, inside, frame);
-    if constexpr (K == Kind::solid) {  // stored in the face's own frame: sigma_12 keeps its sign, sigma_13 turns
-      if constexpr (G::dimension == 3) l.tau.z = outward * l.tau.z;
-    }
     const LongitudinalStar<Real> star = free_surface<Real>(l, Real(p0));
     const ContactFlux<G, Real> contact(star, eulerian_flux<G>(star, l, l), frame);
     const Real weight = gather<Real>(faces.area.data(), at) * load<Real>(&list.share[i]);
     const Real zero(0.0);
     const Real advancing = select(star.from_left, weight, zero), retreating = select(star.from_left, zero, weight);
-    own.add_gain(0, -(advancing * contact.mass), (-1.0) * (advancing * contact.momentum + retreating * contact.force),
+    slots.add_gain(own, -(advancing * contact.mass), (-1.0) * (advancing * contact.momentum + retreating * contact.force),
                  -(advancing * contact.energy + retreating * contact.work), retreating * star.u_star);
-    other.add_gain(1, advancing * contact.mass, advancing * contact.convected_momentum,
+    slots.add_gain(other, advancing * contact.mass, advancing * contact.convected_momentum,
                    advancing * contact.convected_energy, advancing * star.u_star);
 
     if constexpr (K == Kind::solid) {
       const Cobasis<G, Real> e = load_cobasis<G, Real>(phase, inside), e_f = stretched(e, frame, star.r);
       const auto w_star = free_surface_velocity(l, Real(1.0));
       const Vector<G, Real> du = velocity_jump(frame, l, select(star.from_left, star.u_f, star.u_star), w_star);
-      own.add_cobasis(0, weight * fluctuation(select(star.from_left, star.u_f, zero), e_f, e, du, frame));
+      slots.add_cobasis(own, weight * fluctuation(select(star.from_left, star.u_f, zero), e_f, e, du, frame));
       const Cobasis<G, Real> e_outside = load_cobasis<G, Real>(phase, outside);
-      other.add_cobasis(1, (-advancing) * invader_fluctuation(star.u_star, star.u_f, e_f, e_outside, frame));
+      slots.add_cobasis(other, (-advancing) * invader_fluctuation(star.u_star, star.u_f, e_f, e_outside, frame));
     }
   }
 }

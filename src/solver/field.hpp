@@ -42,9 +42,9 @@ inline std::int32_t slot_base(std::int32_t slot, int n) {
 
 /// Faces on which a phase acts, in compact lists. Slot 0 is the empty slot: its values are always zero.
 struct SlotLists {
-  AlignedVector<std::int32_t> pure;          ///< faces between two cells that hold only this phase
-  AlignedVector<std::int32_t> mixed;         ///< other faces where the phase is on at least one side
-  AlignedVector<double> mixed_share;         ///< S_kk of these
+  CompactList<std::int32_t> pure;            ///< faces between two cells that hold only this phase
+  CompactList<std::int32_t> mixed;           ///< other faces where the phase is on at least one side
+  CompactList<double> mixed_share;           ///< S_kk of these
   AlignedVector<std::int32_t> slot_of_face;  ///< n_faces + 1 entries; the last is the face of nobody
 };
 
@@ -67,9 +67,6 @@ struct Phase {
 
   int n_conserved() const { return static_cast<int>(conserved.size()); }
 };
-
-/// Moves between cells: what a phase has in a cell, in total [m^3, kg, kg m/s, J] and volume times cobasis.
-using Content = std::vector<double>;
 
 /// Component c of the cobasis of an undeformed solid, in the numbering of Layout.
 inline double identity_cobasis(int dimension, int c) {

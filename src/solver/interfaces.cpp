@@ -5,14 +5,12 @@
 namespace cobasis {
 namespace {
 
-/// Fills the last pack of a list by repeating its last entry.
-template <class T>
-void fill_pack(T& list) {
-  while (list.size() % pack_width != 0) list.push_back(list.back());
-}
+Segment open_segment(std::int32_t first) { return {first, first}; }
 
-Segment open_segment(std::size_t first) {
-  return {static_cast<std::int32_t>(first), static_cast<std::int32_t>(first)};
+template <class T>
+void close_segment(Segment& segment, CompactList<T>& list) {
+  segment.last = list.size();
+  list.fill(pack_width);
 }
 
 }  // namespace
@@ -25,16 +23,19 @@ Interfaces::Interfaces(const Faces& faces, const Fields& fields, std::vector<Fac
       mixed_(n_phases_),
       pair_segments_(n_phases_ * n_phases_),
       pairs_(n_phases_ * n_phases_),
+      mixed_faces_(faces.n + n_parts * pack_width),
+      acting_(fields.multiphase() ? fields.n_all : 0),
       left_(n_phases_),
       right_(n_phases_),
       jump_(n_phases_) {
-  const std::size_t most = faces.n + n_parts * pack_width;
-  mixed_faces_.reserve(most);
-  for (PairList& pair : pairs_) {
-    if (!fields.multiphase()) continue;
-    pair.face.reserve(most);
-    pair.share.reserve(most);
-    pair.side.reserve(most);
+  for (int l = 0; l < n_phases_; ++l) {
+    for (int m = 0; m < n_phases_; ++m) {
+      if (l == m) continue;
+      PairList& pair = pairs_[l * n_phases_ + m];
+      pair.face = CompactList<std::int32_t>(faces.n + n_parts * pack_width);
+      pair.share = CompactList<double>(faces.n + n_parts * pack_width);
+      pair.side = fields.phases[l].is_void ? 1 : 0;
+    }
   }
 }
 
@@ -43,7 +44,6 @@ void Interfaces::clear(Fields& fields) {
   for (PairList& pair : pairs_) {
     pair.face.clear();
     pair.share.clear();
-    pair.side.clear();
   }
   for (Phase& phase : fields.phases) {
     phase.lists.pure.clear();
@@ -53,81 +53,102 @@ void Interfaces::clear(Fields& fields) {
   }
   for (auto* segments : {&pure_, &mixed_, &pair_segments_})
     for (auto& of_parts : *segments) of_parts.fill({});
+  std::fill(acting_.begin(), acting_.end(), 0);
 }
 
 void Interfaces::sort(const Faces& faces, Fields& fields, Part part) {
   const int p = static_cast<int>(part);
   for (int k = 0; k < n_phases_; ++k) pure_[k][p] = open_segment(fields.phases[k].lists.pure.size());
-  const std::size_t first_mixed = mixed_faces_.size();
+  part_faces_ = open_segment(mixed_faces_.size());
   const std::int8_t* pure = fields.pure.data();
   for (const FaceRange& range : ranges_[p]) {
     for (std::int32_t f = range.first; f < range.last; ++f) {
       const std::int8_t l = pure[faces.left[f]], r = part == Part::mirror ? l : pure[faces.right[f]];
       if (l < 0 || l != r) {
-        mixed_faces_.push_back(f);
+        mixed_faces_.push(f);
       } else if (!fields.phases[l].is_void) {
         SlotLists& lists = fields.phases[l].lists;
-        lists.slot_of_face[f] = pack_width + static_cast<std::int32_t>(lists.pure.size());
-        lists.pure.push_back(f);
+        lists.slot_of_face[f] = pack_width + lists.pure.size();
+        lists.pure.push(f);
       }
     }
   }
-  for (int k = 0; k < n_phases_; ++k) {
-    pure_[k][p].last = static_cast<std::int32_t>(fields.phases[k].lists.pure.size());
-    fill_pack(fields.phases[k].lists.pure);
-  }
-  if (fields.multiphase()) sort_mixed(faces, fields, part, first_mixed);
+  for (int k = 0; k < n_phases_; ++k) close_segment(pure_[k][p], fields.phases[k].lists.pure);
+  close_segment(part_faces_, mixed_faces_);
 }
 
-void Interfaces::sort_mixed(const Faces& faces, Fields& fields, Part part, std::size_t first) {
+COBASIS_KERNEL void Interfaces::find_contacts(const Faces& faces, Fields& fields, Part part) {
   const int p = static_cast<int>(part), n = n_phases_;
   const std::int32_t first_slot = first_mixed_slot(faces);
   for (int k = 0; k < n; ++k) mixed_[k][p] = open_segment(fields.phases[k].lists.mixed.size());
   for (int lm = 0; lm < n * n; ++lm) pair_segments_[lm][p] = open_segment(pairs_[lm].face.size());
+  const Pack zero(0.0);
 
-  for (std::size_t i = first; i < mixed_faces_.size(); ++i) {
-    const std::int32_t f = mixed_faces_[i], l = faces.left[f], r = part == Part::mirror ? l : faces.right[f];
-    int dominant = 0;
+  for (std::int32_t i = part_faces_.first; i < part_faces_.last; i += pack_width) {
+    const Indices<Pack> at = load_indices<Pack>(&mixed_faces_[i]);
+    const Indices<Pack> l = lookup<Pack>(faces.left.data(), at);
+    const Indices<Pack> r = part == Part::mirror ? l : lookup<Pack>(faces.right.data(), at);
+    const int count = std::min(pack_width, part_faces_.last - i);
+    const unsigned valid = (1u << count) - 1;
+
+    Pack largest(-1.0);
     for (int k = 0; k < n; ++k) {
-      left_[k] = fields.phases[k].alpha[l];
-      right_[k] = fields.phases[k].alpha[r];
+      left_[k] = gather<Pack>(fields.phases[k].alpha.data(), l);
+      right_[k] = gather<Pack>(fields.phases[k].alpha.data(), r);
       jump_[k] = left_[k] - right_[k];
-      if (left_[k] + right_[k] > left_[dominant] + right_[dominant]) dominant = k;
-      if (fields.phases[k].is_void || !(left_[k] > 0 || right_[k] > 0)) continue;
-      SlotLists& lists = fields.phases[k].lists;
-      lists.slot_of_face[f] = first_slot + static_cast<std::int32_t>(lists.mixed.size());
-      lists.mixed.push_back(f);
-      lists.mixed_share.push_back(std::min(left_[k], right_[k]));
+      largest = larger(largest, left_[k] + right_[k]);
     }
-    // round-off of (1 - alpha) would otherwise outweigh a trace
-    jump_[dominant] = 0;
-    for (int k = 0; k < n; ++k)
-      if (k != dominant) jump_[dominant] -= fields.phases[k].alpha[l] - fields.phases[k].alpha[r];
-    double gains = 0;
-    for (int k = 0; k < n; ++k) gains += std::max(0.0, jump_[k]);
-    if (!(gains > 0)) continue;
+    // The jump of the dominant phase is minus the sum of the others': round-off of (1 - alpha) would outweigh a trace.
+    Pack::mask_type found(false);
+    for (int k = 0; k < n; ++k) {
+      const Pack::mask_type dominant = !found && left_[k] + right_[k] == largest;
+      found = found || dominant;
+      Pack others(0.0);
+      for (int m = 0; m < n; ++m)
+        if (m != k) others += left_[m] - right_[m];
+      jump_[k] = select(dominant, -others, jump_[k]);
+    }
+    Pack gains(0.0);
+    for (int k = 0; k < n; ++k) gains += larger(zero, jump_[k]);
+
+    for (int k = 0; k < n; ++k) {
+      if (fields.phases[k].is_void) continue;
+      const unsigned present = positive_lanes(larger(left_[k], right_[k])) & valid;
+      SlotLists& lists = fields.phases[k].lists;
+      store_chosen(present, at, lists.mixed.end());
+      store_chosen(present, smaller(left_[k], right_[k]), lists.mixed_share.end());
+      std::int32_t slot = first_slot + lists.mixed.size();
+      for (unsigned bits = present; bits != 0; bits &= bits - 1) {
+        const int j = std::countr_zero(bits);
+        lists.slot_of_face[at[j]] = slot++;
+        acting_[l[j]] |= 1u << k;
+        acting_[r[j]] |= 1u << k;
+      }
+      lists.mixed.grow(std::popcount(present));
+      lists.mixed_share.grow(std::popcount(present));
+    }
     for (int a = 0; a < n; ++a) {
-      if (!(jump_[a] > 0)) continue;
+      if ((positive_lanes(jump_[a]) & valid) == 0) continue;
       for (int b = 0; b < n; ++b) {
-        const double share = contact_surface(jump_[a], jump_[b], gains);
-        if (!(share > 0)) continue;
+        if (a == b) continue;
+        const Pack share = contact_surface(jump_[a], jump_[b], gains);
+        const unsigned meeting = positive_lanes(share) & valid;
+        if (meeting == 0) continue;
         PairList& pair = pairs_[a * n + b];
-        pair.face.push_back(f);
-        pair.share.push_back(share);
-        pair.side.push_back(fields.phases[a].is_void ? 1 : 0);
+        store_chosen(meeting, at, pair.face.end());
+        store_chosen(meeting, share, pair.share.end());
+        pair.face.grow(std::popcount(meeting));
+        pair.share.grow(std::popcount(meeting));
       }
     }
   }
   for (int k = 0; k < n; ++k) {
-    mixed_[k][p].last = static_cast<std::int32_t>(fields.phases[k].lists.mixed.size());
-    fill_pack(fields.phases[k].lists.mixed);
-    fill_pack(fields.phases[k].lists.mixed_share);
+    close_segment(mixed_[k][p], fields.phases[k].lists.mixed);
+    fields.phases[k].lists.mixed_share.fill(pack_width);
   }
   for (int lm = 0; lm < n * n; ++lm) {
-    pair_segments_[lm][p].last = static_cast<std::int32_t>(pairs_[lm].face.size());
-    fill_pack(pairs_[lm].face);
-    fill_pack(pairs_[lm].share);
-    fill_pack(pairs_[lm].side);
+    close_segment(pair_segments_[lm][p], pairs_[lm].face);
+    pairs_[lm].share.fill(pack_width);
   }
 }
 

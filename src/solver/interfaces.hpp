@@ -18,37 +18,43 @@ struct FaceRange {
 
 class Interfaces {
  public:
+  static constexpr int most_phases = 32;  ///< one bit each
+
   Interfaces(const Faces& faces, const Fields& fields, std::vector<FaceRange> inside, std::vector<FaceRange> mirror,
              std::vector<FaceRange> halo);
 
   /// Empties all lists before a step.
   void clear(Fields& fields);
-  /// Sorts the faces of one part; the cells on both sides must be known.
+  /// Sorts the faces of one part into those that are pure in a phase and the others; both cells must be known.
   void sort(const Faces& faces, Fields& fields, Part part);
+  /// Contact surfaces of the others, (Table 1) for any number of phases.
+  void find_contacts(const Faces& faces, Fields& fields, Part part);
 
   Segment pure(int k, Part part) const { return pure_[k][static_cast<int>(part)]; }
   Segment mixed(int k, Part part) const { return mixed_[k][static_cast<int>(part)]; }
   const PairList& pair(int l, int m) const { return pairs_[l * n_phases_ + m]; }
   Segment pair_segment(int l, int m, Part part) const { return pair_segments_[l * n_phases_ + m][static_cast<int>(part)]; }
 
-  /// Faces that were not pure in the last sort of each part, in ascending order within a part.
-  const std::vector<std::int32_t>& mixed_faces() const { return mixed_faces_; }
+  /// Bit k: phase k acts on a cell through a face that is not pure. Of all cells, ghosts included.
+  const std::vector<std::uint32_t>& acting() const { return acting_; }
 
  private:
-  void sort_mixed(const Faces& faces, Fields& fields, Part part, std::size_t first);
-
   int n_phases_;
   std::vector<FaceRange> ranges_[n_parts];
   std::vector<std::array<Segment, n_parts>> pure_, mixed_, pair_segments_;
   std::vector<PairList> pairs_;
-  std::vector<std::int32_t> mixed_faces_;
-  std::vector<double> left_, right_, jump_;  // scratch per phase
+  CompactList<std::int32_t> mixed_faces_;
+  Segment part_faces_;                    // of mixed_faces_, in the part last sorted
+  std::vector<std::uint32_t> acting_;
+  std::vector<Pack> left_, right_, jump_;  // scratch per phase
 };
 
-/// Contact surfaces of a face (section 4.1, any number of phases) from the volume fractions left and right:
-/// S_lm = max(0, d_l) max(0, -d_m) / sum_k max(0, d_k), d = left - right. The d must sum to zero.
-inline double contact_surface(double jump_l, double jump_m, double sum_of_gains) {
-  return jump_l > 0 && jump_m < 0 && sum_of_gains > 0 ? jump_l * -jump_m / sum_of_gains : 0;
+/// S_lm = max(0, d_l) max(0, -d_m) / sum_k max(0, d_k), d = left - right volume fraction; the d must sum to zero.
+template <class Real>
+Real contact_surface(const Real& d_l, const Real& d_m, const Real& sum_of_gains) {
+  const Real zero(0.0);
+  const Real product = larger(zero, d_l) * larger(zero, -d_m);
+  return select(product > zero, product / sum_of_gains, zero);
 }
 
 }  // namespace cobasis

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 
@@ -79,6 +80,7 @@ double Solver::advance(double until) {
 void Solver::sweep(Part part) {
   if (fields_.multiphase()) interfaces_->sort(faces_, fields_, part);
   const Timed timed(clock_.kernels);
+  if (fields_.multiphase()) interfaces_->find_contacts(faces_, fields_, part);
   const int n = fields_.n_phases();
   const bool mirror = part == Part::mirror;
   for (int k = 0; k < n; ++k) {
@@ -150,40 +152,24 @@ void Solver::receive_halo() {
 
 /// Which cells each phase is updated in: those inside the phase, and those where anything else is near.
 void Solver::list_cells() {
-  for (const std::int32_t cell : touched_cells_) touched_[cell] = 0;
-  touched_cells_.clear();
-  const auto touch = [&](std::int32_t cell) {
-    if (cell >= mesh_.n_owned || touched_[cell]) return;
-    touched_[cell] = 1;
-    touched_cells_.push_back(cell);
-  };
-  for (const std::int32_t face : interfaces_->mixed_faces()) {
-    touch(faces_.left[face]);
-    touch(faces_.right[face]);
-  }
   const int n = fields_.n_phases();
   for (int k = 0; k < n; ++k) {
     pure_cells_[k].clear();
     mixed_cells_[k].clear();
   }
+  touched_cells_.clear();
   material_cells_.clear();
+  const std::vector<std::uint32_t>& acting = interfaces_->acting();
   for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) {
     const int only = fields_.pure[cell];
-    if (!touched_[cell] && fields_.phases[only].is_void) continue;
-    material_cells_.push_back(cell);
-    if (!touched_[cell]) {
+    if (acting[cell] != 0) {
+      touched_cells_.push_back(cell);
+      material_cells_.push_back(cell);
+      for (std::uint32_t bits = acting[cell]; bits != 0; bits &= bits - 1)
+        mixed_cells_[std::countr_zero(bits)].push_back(cell);
+    } else if (!fields_.phases[only].is_void) {
+      material_cells_.push_back(cell);
       pure_cells_[only].push_back(cell);
-      continue;
-    }
-    for (int k = 0; k < n; ++k) {
-      const Phase& phase = fields_.phases[k];
-      if (phase.is_void) continue;
-      bool acts = phase.alpha[cell] > 0;
-      for (int j = 0; j < faces_.max_cell_faces && !acts; ++j) {
-        const std::int32_t entry = faces_.cell_faces[static_cast<std::size_t>(j) * faces_.cell_stride + cell];
-        acts = phase.lists.slot_of_face[entry >> 1] != 0;
-      }
-      if (acts) mixed_cells_[k].push_back(cell);
     }
   }
   material_count_ = material_cells_.size();
@@ -260,7 +246,7 @@ void Solver::convert_owned(double dt) {
     std::vector<std::pair<std::int32_t, int>> fragments;
     for (const auto& [cell, k] : inadmissible)
       if (fields_.phases[k].alpha[cell] < fragment) fragments.emplace_back(cell, k);
-    const std::vector<std::int32_t>& exchanged = exchange_->run(mesh_, faces_, fields_, dt, fragments);
+    const std::vector<std::int32_t>& exchanged = exchange_->run(mesh_, faces_, fields_, dt, touched_cells_, fragments);
     std::vector<std::pair<std::int32_t, int>> remaining;
     for (const auto& entry : inadmissible)
       if (!std::binary_search(exchanged.begin(), exchanged.end(), entry.first)) remaining.push_back(entry);

@@ -91,6 +91,9 @@ Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
   }
   if (geometry_ == Geometry::plane) pick_kernels<Plane>(setup_, options_.scalar, kernels_, pair_kernels_);
   else pick_kernels<Space>(setup_, options_.scalar, kernels_, pair_kernels_);
+  if (setup_.phases.size() > Interfaces::most_phases)
+    throw InputError(fmt::format("{}: {} phases; allowed are at most {}", setup_.case_file, setup_.phases.size(),
+                                 Interfaces::most_phases));
   allocate();
   interfaces_.emplace(faces_, fields_, std::move(inside), std::move(mirrors),
                       std::vector<FaceRange>{{mesh_.n_interior_faces, mesh_.first_boundary_face()}});
@@ -135,7 +138,7 @@ void Solver::allocate() {
     phase.primitive.assign(kernels.n_primitive, AlignedVector<double>(n_all, 0));
 
     SlotLists& lists = phase.lists;
-    lists.pure.reserve(list_capacity);
+    lists.pure = CompactList<std::int32_t>(list_capacity);
     lists.slot_of_face.assign(faces_.n + 1, 0);
     const std::size_t flux_size = (pure_slots + mixed_slots) * kernels.n_flux;
     if (flux_size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
@@ -144,8 +147,8 @@ void Solver::allocate() {
     phase.flux = RawStorage(flux_size);
     std::fill_n(phase.flux.data(), pack_width * kernels.n_flux, 0.0);
     if (multiphase) {
-      lists.mixed.reserve(list_capacity);
-      lists.mixed_share.reserve(list_capacity);
+      lists.mixed = CompactList<std::int32_t>(list_capacity);
+      lists.mixed_share = CompactList<double>(list_capacity);
       phase.gain = RawStorage(mixed_slots * kernels.n_gain);
       std::fill_n(phase.gain.data(), pack_width * kernels.n_gain, 0.0);
       phase.sides = RawStorage(mixed_slots * 2 * kernels.n_side);
@@ -153,7 +156,6 @@ void Solver::allocate() {
   }
   pure_cells_.resize(fields_.n_phases());
   mixed_cells_.resize(fields_.n_phases());
-  touched_.assign(mesh_.n_owned, 0);
   const std::size_t cells = mesh_.n_cells() + pack_width;
   for (auto* lists : {&pure_cells_, &mixed_cells_})
     for (CellList& list : *lists) list.reserve(cells);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <tuple>
 
 namespace cobasis {
@@ -30,6 +32,11 @@ void reset_cobasis(const Fields& fields, Phase& phase, std::int32_t cell) {
     phase.conserved[c][cell] = identity_cobasis(fields.dimension, c - fields.first_cobasis());
 }
 
+/// Round-off can leave content without volume.
+bool may_be_there(const Phase& phase, std::int32_t cell) {
+  return phase.alpha[cell] != 0 || (!phase.is_void && phase.conserved[0][cell] != 0);
+}
+
 std::size_t most_conserved(const Fields& fields) {
   int most = 0;
   for (const Phase& phase : fields.phases) most = std::max(most, phase.n_conserved());
@@ -44,6 +51,8 @@ VolumeExchange::VolumeExchange(const Mpi& mpi, const Mesh& mesh, const Fields& f
                     capacities(mesh, fields.n_phases() * (request_head + most_conserved(fields))), 12),
       answers_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases() * (1 + most_conserved(fields))), 13),
       neighbour_of_halo_(mesh.n_halo),
+      sent_(mesh.neighbours.size()),
+      read_(mesh.neighbours.size()),
       volume_of_cell_(mesh.n_owned, 0.0) {
   for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
     const Neighbour& neighbour = mesh.neighbours[n];
@@ -54,7 +63,7 @@ VolumeExchange::VolumeExchange(const Mpi& mpi, const Mesh& mesh, const Fields& f
 
 Content VolumeExchange::content_of(const Fields& fields, int k, std::int32_t cell) const {
   const Phase& phase = fields.phases[k];
-  Content content(phase.n_conserved());
+  Content content{};
   for (int c = 0; c < phase.n_conserved(); ++c)
     content[c] = phase.conserved[c][cell] * fields.volume[cell] * (c < fields.first_cobasis() ? 1 : phase.alpha[cell]);
   return content;
@@ -106,17 +115,23 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
     ++counters_.kept;
     return;
   }
-  asked_.push_back({mesh.global_id[cell], cell, donor, k, j, volume, own, dust_only, -1, 0,
+  asked_.push_back({mesh.global_id[cell], cell, donor, k, j, volume, own, dust_only, -1, 0, Answer::refused,
                     content_of(fields, k, cell)});
 }
 
 void VolumeExchange::ask(const Mesh& mesh, const Faces& faces, const Fields& fields, double dt,
+                         const std::vector<std::int32_t>& candidates,
                          const std::vector<std::pair<std::int32_t, int>>& forced) {
   asked_.clear();
   auto next_forced = forced.begin();
-  for (std::int32_t cell = 0; cell < fields.n_owned; ++cell) {
-    while (next_forced != forced.end() && next_forced->first < cell) ++next_forced;
+  for (const std::int32_t cell : candidates) {
     if (fields.pure[cell] >= 0) continue;
+    while (next_forced != forced.end() && next_forced->first < cell) ++next_forced;
+    const bool has_forced = next_forced != forced.end() && next_forced->first == cell;
+    bool small = has_forced;
+    for (const Phase& phase : fields.phases)
+      small = small || (phase.alpha[cell] < largest_threshold && may_be_there(phase, cell));
+    if (!small) continue;
     // the threshold follows the speed of the material, so that slow fronts move as exactly as fast ones
     int material = -1;
     for (int k = 0; k < fields.n_phases(); ++k)
@@ -135,10 +150,9 @@ void VolumeExchange::ask(const Mesh& mesh, const Faces& faces, const Fields& fie
         smallest_threshold, std::min(largest_threshold, 0.1 * dt * swept / (2 * fields.volume[cell])));
     for (int k = 0; k < fields.n_phases(); ++k) {
       const double alpha = fields.phases[k].alpha[cell];
-      const bool something = alpha != 0 || (!fields.phases[k].is_void && fields.phases[k].conserved[0][cell] != 0);
       const bool is_forced = next_forced != forced.end() && *next_forced == std::pair(cell, k);
       if (is_forced) ++next_forced;
-      if (something && (alpha < threshold || is_forced)) request(mesh, faces, fields, cell, k, is_forced);
+      if (may_be_there(fields.phases[k], cell) && (alpha < threshold || is_forced)) request(mesh, faces, fields, cell, k, is_forced);
     }
   }
 }
@@ -146,23 +160,24 @@ void VolumeExchange::ask(const Mesh& mesh, const Faces& faces, const Fields& fie
 void VolumeExchange::deliver(const Mesh& mesh, const Fields& fields) {
   for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) requests_out_.outgoing(n).clear();
   received_.clear();
-  std::vector<int> sent(mesh.neighbours.size(), 0);
-  for (Request& r : asked_) {
+  std::fill(sent_.begin(), sent_.end(), 0);
+  for (std::size_t i = 0; i < asked_.size(); ++i) {
+    Request& r = asked_[i];
     if (r.donor < mesh.n_owned) {
+      r.position = static_cast<int>(i);
       received_.push_back(r);
-      received_.back().position = static_cast<int>(&r - asked_.data());
       continue;
     }
-    const int n = neighbour_of_halo_[r.donor - mesh.n_owned];
-    const Neighbour& neighbour = mesh.neighbours[n];
-    r.neighbour = n;
-    r.position = sent[n]++;
+    r.neighbour = neighbour_of_halo_[r.donor - mesh.n_owned];
+    r.position = sent_[r.neighbour]++;
+    const Neighbour& neighbour = mesh.neighbours[r.neighbour];
     const auto own = std::lower_bound(neighbour.send.begin(), neighbour.send.end(), r.cell) - neighbour.send.begin();
-    std::vector<double>& out = requests_out_.outgoing(n);
-    out.insert(out.end(), {static_cast<double>(own), static_cast<double>(r.donor - neighbour.receive_first),
-                           static_cast<double>(r.k), static_cast<double>(r.j), r.volume, r.alpha,
-                           static_cast<double>(r.dust_only)});
-    out.insert(out.end(), r.content.begin(), r.content.end());
+    std::vector<double>& out = requests_out_.outgoing(r.neighbour);
+    for (const double value : {static_cast<double>(own), static_cast<double>(r.donor - neighbour.receive_first),
+                               static_cast<double>(r.k), static_cast<double>(r.j), r.volume, r.alpha,
+                               static_cast<double>(r.dust_only)})
+      out.push_back(value);
+    for (int c = 0; c < fields.phases[r.k].n_conserved(); ++c) out.push_back(r.content[c]);
   }
   requests_out_.start();
   requests_out_.finish();
@@ -174,81 +189,79 @@ void VolumeExchange::deliver(const Mesh& mesh, const Fields& fields) {
       const std::int32_t cell = neighbour.receive_first + static_cast<std::int32_t>(in[at]);
       const std::int32_t donor = neighbour.send[static_cast<std::size_t>(in[at + 1])];
       const int k = static_cast<int>(in[at + 2]), j = static_cast<int>(in[at + 3]);
-      const double* content = &in[at] + request_head;
+      Content content{};
       const int size = fields.phases[k].n_conserved();
+      std::copy_n(in.begin() + at + request_head, size, content.begin());
       received_.push_back({mesh.global_id[cell], cell, donor, k, j, in[at + 4], in[at + 5], in[at + 6] != 0,
-                           static_cast<int>(n), position, Content(content, content + size)});
+                           static_cast<int>(n), position, Answer::refused, content});
       at += request_head + size;
     }
   }
 }
 
-void VolumeExchange::serve(const Mesh& mesh, Fields& fields) {
-  deposits_.clear();
-  extractions_.clear();
+/// Decides on what this rank's cells were asked for. A request's content is replaced by what it gets.
+void VolumeExchange::serve(const Fields& fields) {
   // smallest first, ties by the asking cell: the same order for any partition
   std::sort(received_.begin(), received_.end(), [](const Request& a, const Request& b) {
     return std::tie(a.donor, a.j, a.alpha, a.from_id, a.k) < std::tie(b.donor, b.j, b.alpha, b.from_id, b.k);
   });
-  std::vector<std::vector<std::pair<Answer, Content>>> answers(mesh.neighbours.size());
-  std::vector<std::pair<Answer, Content>> own(asked_.size());
   double budget = 0;
   for (std::size_t i = 0; i < received_.size(); ++i) {
     Request& r = received_[i];
-    const double volume = fields.volume[r.donor], available = fields.phases[r.j].alpha[r.donor] * volume;
+    const double available = fields.phases[r.j].alpha[r.donor] * fields.volume[r.donor];
     if (i == 0 || r.donor != received_[i - 1].donor || r.j != received_[i - 1].j) budget = available;
-    Answer answer = Answer::refused;
-    Content content;
     if (!r.dust_only && r.volume <= budget) {
       budget -= r.volume;
-      answer = Answer::granted;
-      content = content_of(fields, r.j, r.donor);
-      for (double& value : content) value *= r.volume / available;
+      r.answer = Answer::granted;
       extractions_.push_back({r.donor, r.j, r.volume});
       deposits_.push_back({r.donor, r.k, r.from_id, r.volume, r.content});
+      r.content = content_of(fields, r.j, r.donor);
+      for (double& value : r.content) value *= r.volume / available;
     } else if (r.dust_only || std::fabs(r.alpha) < dust_threshold) {
-      answer = Answer::dust;
+      r.answer = Answer::dust;
       deposits_.push_back({r.donor, r.k, r.from_id, 0, r.content});
     }
-    if (r.neighbour < 0) {
-      own[r.position] = {answer, std::move(content)};
-    } else {
-      auto& to = answers[r.neighbour];
-      if (static_cast<int>(to.size()) <= r.position) to.resize(r.position + 1);
-      to[r.position] = {answer, std::move(content)};
-    }
-  }
-  for (std::size_t n = 0; n < answers.size(); ++n) {
-    std::vector<double>& out = answers_.outgoing(n);
-    out.clear();
-    for (const auto& [answer, content] : answers[n]) {
-      out.push_back(static_cast<double>(answer));
-      out.insert(out.end(), content.begin(), content.end());
-    }
-  }
-  answers_.start();
-  answers_.finish();
-  std::vector<std::size_t> read(answers.size(), 0);
-  for (std::size_t i = 0; i < asked_.size(); ++i) {
-    const Request& r = asked_[i];
-    if (r.neighbour < 0) {
-      settle(mesh, fields, r, own[i].first, std::move(own[i].second));
-      continue;
-    }
-    const std::span<const double> in = answers_.incoming(r.neighbour);
-    std::size_t& at = read[r.neighbour];
-    const Answer answer = static_cast<Answer>(static_cast<int>(in[at++]));
-    Content content;
-    if (answer == Answer::granted) {
-      const int size = fields.phases[r.j].n_conserved();
-      content.assign(&in[at], &in[at] + size);
-      at += size;
-    }
-    settle(mesh, fields, r, answer, std::move(content));
   }
 }
 
-void VolumeExchange::settle(const Mesh& mesh, Fields& fields, const Request& r, Answer answer, Content content) {
+void VolumeExchange::collect_answers(const Mesh& mesh, const Fields& fields) {
+  order_.resize(received_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  std::sort(order_.begin(), order_.end(), [&](std::int32_t a, std::int32_t b) {
+    return std::tie(received_[a].neighbour, received_[a].position) < std::tie(received_[b].neighbour, received_[b].position);
+  });
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) answers_.outgoing(n).clear();
+  for (const std::int32_t i : order_) {
+    const Request& r = received_[i];
+    if (r.neighbour < 0) {
+      settle(mesh, asked_[r.position], r.answer, r.content);
+      continue;
+    }
+    std::vector<double>& out = answers_.outgoing(r.neighbour);
+    out.push_back(static_cast<double>(r.answer));
+    if (r.answer != Answer::granted) continue;
+    for (int c = 0; c < fields.phases[r.j].n_conserved(); ++c) out.push_back(r.content[c]);
+  }
+  answers_.start();
+  answers_.finish();
+  std::fill(read_.begin(), read_.end(), 0);
+  for (const Request& r : asked_) {
+    if (r.neighbour < 0) continue;
+    const std::span<const double> in = answers_.incoming(r.neighbour);
+    std::size_t& at = read_[r.neighbour];
+    const Answer answer = static_cast<Answer>(static_cast<int>(in[at++]));
+    Content content{};
+    if (answer == Answer::granted) {
+      const int size = fields.phases[r.j].n_conserved();
+      std::copy_n(in.begin() + at, size, content.begin());
+      at += size;
+    }
+    settle(mesh, r, answer, content);
+  }
+}
+
+/// What an answer means for the asking cell.
+void VolumeExchange::settle(const Mesh& mesh, const Request& r, Answer answer, const Content& content) {
   if (answer == Answer::refused) {
     ++counters_.kept;
     return;
@@ -256,44 +269,41 @@ void VolumeExchange::settle(const Mesh& mesh, Fields& fields, const Request& r, 
   if (answer == Answer::granted) {
     ++counters_.exchanges;
     volume_of_cell_[r.cell] += std::fabs(r.volume);
-    deposits_.push_back({r.cell, r.j, mesh.global_id[r.donor], r.volume, std::move(content)});
+    deposits_.push_back({r.cell, r.j, mesh.global_id[r.donor], r.volume, content});
   } else {
     ++counters_.dust;
-    deposits_.push_back({r.cell, r.j, mesh.global_id[r.donor], r.volume, Content(fields.phases[r.j].n_conserved(), 0)});
+    deposits_.push_back({r.cell, r.j, mesh.global_id[r.donor], 0, {}});
   }
-  extractions_.push_back({r.cell, r.k, std::numeric_limits<double>::infinity()});
+  extractions_.push_back({r.cell, r.k, infinity});
 }
 
-const std::vector<std::int32_t>& VolumeExchange::run(const Mesh& mesh, const Faces& faces, Fields& fields, double dt,
-                                                     const std::vector<std::pair<std::int32_t, int>>& forced) {
-  touched_.clear();
-  share_alpha(mesh, fields);
-  ask(mesh, faces, fields, dt, forced);
-  deliver(mesh, fields);
-  serve(mesh, fields);
-
-  // All decisions and contents came from the state before: now extract all, then deposit all.
+/// All decisions and contents came from the state before: now extracts all, then deposits all.
+void VolumeExchange::apply(Fields& fields) {
   std::sort(extractions_.begin(), extractions_.end(), [](const Extraction& a, const Extraction& b) {
     return std::tie(a.cell, a.phase, a.volume) < std::tie(b.cell, b.phase, b.volume);
   });
   for (std::size_t i = 0, next = 0; i < extractions_.size(); i = next) {
     const Extraction& x = extractions_[i];
     double volume = 0;
-    for (next = i; next < extractions_.size() && extractions_[next].cell == x.cell && extractions_[next].phase == x.phase; ++next)
+    for (; next < extractions_.size() && extractions_[next].cell == x.cell && extractions_[next].phase == x.phase; ++next)
       volume += extractions_[next].volume;
     Phase& phase = fields.phases[x.phase];
     double& alpha = phase.alpha[x.cell];
-    const bool all = volume == std::numeric_limits<double>::infinity();
+    const bool all = volume == infinity;
     const double rest = all ? 0 : 1 - volume / (alpha * fields.volume[x.cell]);
     alpha = all ? 0 : alpha - volume / fields.volume[x.cell];
     for (int c = 0; c < std::min(phase.n_conserved(), fields.first_cobasis()); ++c) phase.conserved[c][x.cell] *= rest;
     if (all) reset_cobasis(fields, phase, x.cell);
-    touched_.push_back(x.cell);
+    if (given_.empty() || given_.back() != x.cell) given_.push_back(x.cell);
   }
-  std::sort(deposits_.begin(), deposits_.end(), [](const Deposit& a, const Deposit& b) {
+  order_.resize(deposits_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  std::sort(order_.begin(), order_.end(), [&](std::int32_t i, std::int32_t j) {
+    const Deposit &a = deposits_[i], &b = deposits_[j];
     return std::tie(a.cell, a.phase, a.from_id, a.volume) < std::tie(b.cell, b.phase, b.from_id, b.volume);
   });
-  for (const Deposit& deposit : deposits_) {
+  for (const std::int32_t i : order_) {
+    const Deposit& deposit = deposits_[i];
     Phase& phase = fields.phases[deposit.phase];
     const double volume = fields.volume[deposit.cell];
     double& alpha = phase.alpha[deposit.cell];
@@ -304,11 +314,26 @@ const std::vector<std::int32_t>& VolumeExchange::run(const Mesh& mesh, const Fac
       if (c < fields.first_cobasis()) q += deposit.content[c] / volume;
       else if (deposit.volume != 0 && after != 0) q = (before * q + deposit.content[c]) / after;
     }
-    touched_.push_back(deposit.cell);
+    if (taken_.empty() || taken_.back() != deposit.cell) taken_.push_back(deposit.cell);
   }
-  std::sort(touched_.begin(), touched_.end());
-  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+  std::set_union(given_.begin(), given_.end(), taken_.begin(), taken_.end(), std::back_inserter(touched_));
   for (const std::int32_t cell : touched_) fields.complete(cell);
+}
+
+const std::vector<std::int32_t>& VolumeExchange::run(const Mesh& mesh, const Faces& faces, Fields& fields, double dt,
+                                                     const std::vector<std::int32_t>& candidates,
+                                                     const std::vector<std::pair<std::int32_t, int>>& forced) {
+  touched_.clear();
+  given_.clear();
+  taken_.clear();
+  deposits_.clear();
+  extractions_.clear();
+  share_alpha(mesh, fields);
+  ask(mesh, faces, fields, dt, candidates, forced);
+  deliver(mesh, fields);
+  serve(fields);
+  collect_answers(mesh, fields);
+  apply(fields);
   return touched_;
 }
 

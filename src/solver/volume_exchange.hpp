@@ -2,7 +2,9 @@
 // that has more of it. Conserves every phase, leaves intensive values untouched, and moves slow fronts exactly.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -19,13 +21,18 @@ struct ExchangeCounters {
   std::int64_t dust = 0;         ///< volumes below 1e-11 whose content went to a neighbour without volume
 };
 
+/// What a phase has in a cell in total: mass, momentum, energy [kg, kg m/s, J], and volume times cobasis [m^3].
+using Content = std::array<double, Layout<Space, Kind::solid>::n_conserved>;
+
 class VolumeExchange {
  public:
   VolumeExchange(const Mpi& mpi, const Mesh& mesh, const Fields& fields);
 
-  /// After a full step. `forced`: (cell, phase) fragments to be exchanged whatever their size. Collective. Returns the
-  /// owned cells that were touched, ascending.
+  /// After a full step. `candidates`: owned cells, ascending, among them all with several phases. `forced`: (cell, phase)
+  /// fragments to be exchanged whatever their size, ascending. Collective. Returns the owned cells that were touched,
+  /// ascending.
   const std::vector<std::int32_t>& run(const Mesh& mesh, const Faces& faces, Fields& fields, double dt,
+                                       const std::vector<std::int32_t>& candidates,
                                        const std::vector<std::pair<std::int32_t, int>>& forced);
 
   const ExchangeCounters& counters() const { return counters_; }
@@ -34,13 +41,15 @@ class VolumeExchange {
 
  private:
   enum class Answer { refused, granted, dust };
-  struct Request {  // phase k of cell i asks cell d for an equal volume of phase j
+  struct Request {  // phase k of cell asks donor for an equal volume of phase j
     std::int64_t from_id;
     std::int32_t cell, donor;
     int k, j;
     double volume, alpha;
     bool dust_only;
-    int neighbour, position;  // where the answer goes: -1 to this rank's cell, else by position in that rank's message
+    int neighbour;  // who asks (received) or is asked (sent); -1: this rank itself
+    int position;   // among the requests of that neighbour
+    Answer answer;
     Content content;
   };
   struct Deposit {
@@ -58,19 +67,24 @@ class VolumeExchange {
 
   void share_alpha(const Mesh& mesh, Fields& fields);
   void ask(const Mesh& mesh, const Faces& faces, const Fields& fields, double dt,
-           const std::vector<std::pair<std::int32_t, int>>& forced);
+           const std::vector<std::int32_t>& candidates, const std::vector<std::pair<std::int32_t, int>>& forced);
   void request(const Mesh& mesh, const Faces& faces, const Fields& fields, std::int32_t cell, int k, bool forced);
   void deliver(const Mesh& mesh, const Fields& fields);
-  void serve(const Mesh& mesh, Fields& fields);
-  void settle(const Mesh& mesh, Fields& fields, const Request& request, Answer answer, Content content);
+  void serve(const Fields& fields);
+  void collect_answers(const Mesh& mesh, const Fields& fields);
+  void settle(const Mesh& mesh, const Request& request, Answer answer, const Content& content);
+  void apply(Fields& fields);
   Content content_of(const Fields& fields, int k, std::int32_t cell) const;
 
   NeighbourExchange alpha_, requests_out_, answers_;
   std::vector<std::int32_t> neighbour_of_halo_;
   std::vector<Request> asked_, received_;
+  std::vector<std::int32_t> order_;  // scratch: positions in sorted order
+  std::vector<int> sent_;            // requests per neighbour
+  std::vector<std::size_t> read_;    // doubles taken from each neighbour's answers
   std::vector<Deposit> deposits_;
   std::vector<Extraction> extractions_;
-  std::vector<std::int32_t> touched_;
+  std::vector<std::int32_t> given_, taken_, touched_;  // cells
   ExchangeCounters counters_;
   std::vector<double> volume_of_cell_;
 };
