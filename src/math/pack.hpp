@@ -5,8 +5,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <experimental/simd>
-#if defined(__AVX512F__)
+#if defined(__AVX2__)
 #include <immintrin.h>
 #endif
 
@@ -54,6 +55,22 @@ inline Pack magnitude(const Pack& x) { return std::experimental::abs(x); }
 /// Indices of one pack of cells, faces or slots.
 template <class Real>
 using Indices = std::array<std::int32_t, lanes<Real>>;
+
+template <class Real> Indices<Real> load_indices(const std::int32_t* from) {
+  Indices<Real> at;
+  std::memcpy(at.data(), from, sizeof at);
+  return at;
+}
+/// table[at], lane by lane.
+template <class Real> Indices<Real> lookup(const std::int32_t* table, const Indices<Real>& at) {
+#if defined(__AVX2__)
+  if constexpr (lanes<Real> == 8)
+    return std::bit_cast<Indices<Real>>(_mm256_i32gather_epi32(table, std::bit_cast<__m256i>(at), 4));
+#endif
+  Indices<Real> found;
+  for (int i = 0; i < lanes<Real>; ++i) found[i] = table[at[i]];
+  return found;
+}
 
 template <class Real> Real load(const double* from) {
   if constexpr (lanes<Real> == 1) return *from;
@@ -109,7 +126,22 @@ inline void store_chosen(unsigned bits, const Pack& x, double* to) {
 #endif
 }
 inline void store_chosen(unsigned bits, const Indices<Pack>& x, std::int32_t* to) {
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                      _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), std::bit_cast<__m256i>(x)));
+#else
   for (; bits != 0; bits &= bits - 1) *to++ = x[std::countr_zero(bits)];
+#endif
+}
+/// Lanes where two indices agree, as bits.
+inline unsigned equal_lanes(const Indices<Pack>& a, const Indices<Pack>& b) {
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+  return _mm256_cmpeq_epi32_mask(std::bit_cast<__m256i>(a), std::bit_cast<__m256i>(b));
+#else
+  unsigned bits = 0;
+  for (int i = 0; i < pack_width; ++i) bits |= static_cast<unsigned>(a[i] == b[i]) << i;
+  return bits;
+#endif
 }
 
 /// Cube root of a positive normal number, without branches: exponent by integer arithmetic, then Halley's iteration,

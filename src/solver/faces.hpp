@@ -41,17 +41,4 @@ Frame<G, Real> load_frame(const Faces& faces, const Indices<Real>& at) {
   }
 }
 
-template <class Real>
-Indices<Real> load_indices(const std::int32_t* from) {
-  Indices<Real> at;
-  for (int i = 0; i < lanes<Real>; ++i) at[i] = from[i];
-  return at;
-}
-template <class Real>
-Indices<Real> lookup(const std::int32_t* table, const Indices<Real>& at) {
-  Indices<Real> found;
-  for (int i = 0; i < lanes<Real>; ++i) found[i] = table[at[i]];
-  return found;
-}
-
 }  // namespace cobasis

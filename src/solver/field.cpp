@@ -21,7 +21,7 @@ void Fields::complete(std::int32_t cell) {
   double& rest = phases[last].alpha[cell];
   rest = present == 0 ? 1 : 1 - others;
   if (rest != 0) ++present, some = last;
-  pure[cell] = present == 1 && phases[some].alpha[cell] == 1 ? static_cast<std::int8_t>(some) : std::int8_t{-1};
+  pure[cell] = present == 1 && phases[some].alpha[cell] == 1 ? some : -1;
 }
 
 }  // namespace cobasis

@@ -79,7 +79,7 @@ struct Fields {
   std::int32_t n_owned = 0;
   std::int32_t n_all = 0;            ///< owned, halo, ghosts
   AlignedVector<double> volume;      ///< of owned and halo cells
-  AlignedVector<std::int8_t> pure;   ///< index of the only phase in a cell, -1 if there are several; all cells
+  AlignedVector<std::int32_t> pure;  ///< index of the only phase in a cell, -1 if there are several; all cells
 
   int n_phases() const { return static_cast<int>(phases.size()); }
   bool multiphase() const { return phases.size() > 1; }

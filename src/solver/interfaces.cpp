@@ -49,27 +49,41 @@ void Interfaces::clear(Fields& fields) {
     phase.lists.pure.clear();
     phase.lists.mixed.clear();
     phase.lists.mixed_share.clear();
-    std::fill(phase.lists.slot_of_face.begin(), phase.lists.slot_of_face.end(), 0);
   }
   for (auto* segments : {&pure_, &mixed_, &pair_segments_})
     for (auto& of_parts : *segments) of_parts.fill({});
   std::fill(acting_.begin(), acting_.end(), 0);
 }
 
-void Interfaces::sort(const Faces& faces, Fields& fields, Part part) {
+COBASIS_KERNEL void Interfaces::sort(const Faces& faces, Fields& fields, Part part) {
   const int p = static_cast<int>(part);
   for (int k = 0; k < n_phases_; ++k) pure_[k][p] = open_segment(fields.phases[k].lists.pure.size());
   part_faces_ = open_segment(mixed_faces_.size());
-  const std::int8_t* pure = fields.pure.data();
+  Indices<Pack> count_up, mixed_cell;
+  for (int i = 0; i < pack_width; ++i) count_up[i] = i;
+  mixed_cell.fill(-1);
   for (const FaceRange& range : ranges_[p]) {
-    for (std::int32_t f = range.first; f < range.last; ++f) {
-      const std::int8_t l = pure[faces.left[f]], r = part == Part::mirror ? l : pure[faces.right[f]];
-      if (l < 0 || l != r) {
-        mixed_faces_.push(f);
-      } else if (!fields.phases[l].is_void) {
-        SlotLists& lists = fields.phases[l].lists;
-        lists.slot_of_face[f] = pack_width + lists.pure.size();
-        lists.pure.push(f);
+    for (std::int32_t f = range.first; f < range.last; f += pack_width) {
+      const unsigned valid = range.last - f >= pack_width ? (1u << pack_width) - 1 : (1u << (range.last - f)) - 1;
+      const Indices<Pack> left = lookup<Pack>(fields.pure.data(), load_indices<Pack>(&faces.left[f]));
+      const Indices<Pack> right =
+          part == Part::mirror ? left : lookup<Pack>(fields.pure.data(), load_indices<Pack>(&faces.right[f]));
+      const unsigned pure = equal_lanes(left, right) & ~equal_lanes(left, mixed_cell) & valid;
+      Indices<Pack> at;
+      for (int i = 0; i < pack_width; ++i) at[i] = f + count_up[i];
+      store_chosen(valid & ~pure, at, mixed_faces_.end());
+      mixed_faces_.grow(std::popcount(valid & ~pure));
+      for (int k = 0; k < n_phases_; ++k) {
+        if (fields.phases[k].is_void) continue;
+        SlotLists& lists = fields.phases[k].lists;
+        Indices<Pack> phase;
+        phase.fill(k);
+        const unsigned own = equal_lanes(left, phase) & pure;
+        store_chosen(own, at, lists.pure.end());
+        std::int32_t slot = pack_width + lists.pure.size();
+        for (int i = 0; i < pack_width; ++i)
+          if (valid >> i & 1) lists.slot_of_face[f + i] = own >> i & 1 ? slot++ : 0;
+        lists.pure.grow(std::popcount(own));
       }
     }
   }

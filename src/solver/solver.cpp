@@ -78,9 +78,11 @@ double Solver::advance(double until) {
 }
 
 void Solver::sweep(Part part) {
-  if (fields_.multiphase()) interfaces_->sort(faces_, fields_, part);
   const Timed timed(clock_.kernels);
-  if (fields_.multiphase()) interfaces_->find_contacts(faces_, fields_, part);
+  if (fields_.multiphase()) {
+    interfaces_->sort(faces_, fields_, part);
+    interfaces_->find_contacts(faces_, fields_, part);
+  }
   const int n = fields_.n_phases();
   const bool mirror = part == Part::mirror;
   for (int k = 0; k < n; ++k) {
@@ -232,10 +234,10 @@ void Solver::convert_owned(double dt) {
     const Phase& phase = fields_.phases[k];
     if (phase.is_void) continue;
     scratch_cells_.clear();
-    for (const CellList* cells : {&pure_cells_[k], &mixed_cells_[k]})
-      for (std::size_t i = 0; i < cells->size(); ++i)
-        if (phase.alpha[(*cells)[i]] > 0) scratch_cells_.push_back((*cells)[i]);
+    for (const std::int32_t cell : mixed_cells_[k])
+      if (phase.alpha[cell] > 0) scratch_cells_.push_back(cell);
     bad_.clear();
+    convert(k, pure_cells_[k]);
     convert(k, scratch_cells_);
     for (const std::int32_t cell : bad_) inadmissible.emplace_back(cell, k);
   }

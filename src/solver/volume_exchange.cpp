@@ -202,14 +202,19 @@ void VolumeExchange::deliver(const Mesh& mesh, const Fields& fields) {
 /// Decides on what this rank's cells were asked for. A request's content is replaced by what it gets.
 void VolumeExchange::serve(const Fields& fields) {
   // smallest first, ties by the asking cell: the same order for any partition
-  std::sort(received_.begin(), received_.end(), [](const Request& a, const Request& b) {
+  order_.resize(received_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  std::sort(order_.begin(), order_.end(), [&](std::int32_t i, std::int32_t j) {
+    const Request &a = received_[i], &b = received_[j];
     return std::tie(a.donor, a.j, a.alpha, a.from_id, a.k) < std::tie(b.donor, b.j, b.alpha, b.from_id, b.k);
   });
   double budget = 0;
-  for (std::size_t i = 0; i < received_.size(); ++i) {
+  const Request* former = nullptr;
+  for (const std::int32_t i : order_) {
     Request& r = received_[i];
     const double available = fields.phases[r.j].alpha[r.donor] * fields.volume[r.donor];
-    if (i == 0 || r.donor != received_[i - 1].donor || r.j != received_[i - 1].j) budget = available;
+    if (!former || r.donor != former->donor || r.j != former->j) budget = available;
+    former = &r;
     if (!r.dust_only && r.volume <= budget) {
       budget -= r.volume;
       r.answer = Answer::granted;

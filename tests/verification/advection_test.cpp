@@ -21,11 +21,14 @@ Scene run_advection(const Changes& changes, double visible = 0) {
   const Result result(scene);
   for (const PhaseSnapshot& phase : result.snapshot.phases) {
     const auto here = [&](std::int32_t cell) { return phase.alpha[cell] > visible; };
-    const Range p = range(scene, [&](std::int32_t cell) { return phase.pressure[cell]; }, here);
+    const Range p = range(
+        scene, [&](std::int32_t cell) { return phase.pressure[cell]; }, here);
     const double dp = p.distance_to(1e5);
     double du = 0;
     for (int i = 0; i < 3; ++i)
-      du = std::max(du, range(scene, [&](std::int32_t c) { return phase.velocity[i][c]; }, here).distance_to(u[i]));
+      du = std::max(du, range(
+                            scene, [&](std::int32_t c) { return phase.velocity[i][c]; }, here)
+                            .distance_to(u[i]));
     INFO(phase.name << ": pressure off by " << dp << " Pa, velocity by " << du << " m/s");
     CHECK(dp < (phase.is_solid ? 20.0 : 1e5 * 1e-9));
     CHECK(du < 400 * 1e-9);
@@ -50,7 +53,8 @@ Changes tube(int n, int element) {
   return {{"mesh_parameters", "{ n = " + std::to_string(n) + ", element = " + std::to_string(element) + " }"}};
 }
 Changes tube_space(int n, int element) {
-  return Changes{{"mesh", "\"../meshes/tube_space.geo\""}, {"boundary.back", "symmetry"}, {"boundary.front", "symmetry"}} +
+  return Changes{
+             {"mesh", "\"../meshes/tube_space.geo\""}, {"boundary.back", "symmetry"}, {"boundary.front", "symmetry"}} +
          tube(n, element);
 }
 /// The front at 30 degrees to a square, or to a slice of a cube, and moving along its own normal.

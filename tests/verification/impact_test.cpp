@@ -1,4 +1,5 @@
-// Section 5.2: copper at 400 m/s strikes aluminium at -200 m/s. A shock into each, normal stress and velocity continuous.
+// Section 5.2: copper at 400 m/s strikes aluminium at -200 m/s. A shock into each, normal stress and velocity
+// continuous.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -50,8 +51,10 @@ void check_no_overshoot(const Scene& scene, double tolerance) {
   const Table exact = read_table("impact.csv");
   const auto contact = [&](std::int32_t cell) { return std::fabs(result.centre(cell).x - 0.512) < 0.1; };
   const Range stress = range(scene, [&](std::int32_t cell) { return result.mixture.stress[0][cell]; });
-  const Range u = range(scene, [&](std::int32_t cell) { return result.mixture.velocity[0][cell]; }, contact);
-  const Range rho = range(scene, [&](std::int32_t cell) { return result.mixture.density[cell]; }, contact);
+  const Range u = range(
+      scene, [&](std::int32_t cell) { return result.mixture.velocity[0][cell]; }, contact);
+  const Range rho = range(
+      scene, [&](std::int32_t cell) { return result.mixture.density[cell]; }, contact);
   INFO("largest stress " << stress.low << " Pa; near the contact velocity " << u.low << " to " << u.high
                          << " m/s, density " << rho.low << " to " << rho.high << " kg/m^3");
   CHECK(stress.low > (1 + tolerance) * exact("stress_xx", 0.5));
@@ -79,9 +82,9 @@ TEST_CASE("an impact reaches the exact stress and velocity within 0.7 % on regul
 }
 
 TEST_CASE("an impact reaches the exact stress and velocity within 0.7 % on irregular triangles") {
-  check_plateau(run_impact({{"mesh", "\"../meshes/box.geo\""},
-                            {"mesh_parameters", "{ n = 2000, height = 0.002, element = 3 }"}}),
-                7e-3);
+  check_plateau(
+      run_impact({{"mesh", "\"../meshes/box.geo\""}, {"mesh_parameters", "{ n = 2000, height = 0.002, element = 3 }"}}),
+      7e-3);
 }
 
 TEST_CASE("an impact on 500 cells is as accurate as an independent first-order implementation") {
@@ -89,12 +92,12 @@ TEST_CASE("an impact on 500 cells is as accurate as an independent first-order i
   const bool in_space = GENERATE(false, true);
   CAPTURE(in_space);
   // hexahedra twice as wide as long: CFL 1 is then half a cell per step, as on squares and in the reference
-  const Scene scene = run_impact(in_space ? hexahedra("n = 500, width = 0.004") : Changes{{"mesh_parameters", "{ n = 500, element = 4 }"}});
+  const Scene scene = run_impact(in_space ? hexahedra("n = 500, width = 0.004")
+                                          : Changes{{"mesh_parameters", "{ n = 500, element = 4 }"}});
   const Result result(scene);
   const auto check = [&](const std::string& name, const std::vector<double>& field) {
-    const double error = mean(scene, [&](std::int32_t cell) {
-      return std::fabs(field[cell] - exact(name, result.centre(cell).x));
-    });
+    const double error =
+        mean(scene, [&](std::int32_t cell) { return std::fabs(field[cell] - exact(name, result.centre(cell).x)); });
     INFO(name << ": error " << error << ", " << error / errors(name, 500) << " of the reference");
     CHECK(error < 1.2 * errors(name, 500));
   };

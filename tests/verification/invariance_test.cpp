@@ -1,6 +1,6 @@
 // What must not matter: the order in which phases are named, and which of all tangents a face has.
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
@@ -25,19 +25,23 @@ std::string three_bodies(bool space) {
 shape = "everywhere"
 fill = "air"
 pressure = 1e5
-velocity = [0.0, 0.0)" + std::string(space ? ", 0.0]\n" : "]\n") + R"([[region]]
+velocity = [0.0, 0.0)" +
+         std::string(space ? ", 0.0]\n" : "]\n") + R"([[region]]
 shape = "half_space"
 fill = "aluminium"
 pressure = 1e5
 point = [0.57, 0.5]
 normal = [0.96, 0.28]
-velocity = [-100.0, 30.0)" + z + R"([[region]]
+velocity = [-100.0, 30.0)" +
+         z + R"([[region]]
 shape = "sphere"
-center = )" + centre + R"(
+center = )" +
+         centre + R"(
 radius = 0.2
 fill = "copper"
 pressure = 2e8
-velocity = [300.0, -20.0)" + z + R"([boundary]
+velocity = [300.0, -20.0)" +
+         z + R"([boundary]
 "*" = "wall"
 )";
 }
@@ -82,8 +86,8 @@ TEST_CASE("the order of the phases in the case does not matter") {
   do {
     const Scene other = run(mesh + phases[0] + phases[1] + phases[2] + three_bodies(space), 50);
     const double difference = largest_difference(first, other);
-    INFO((space ? "space, " : "plane, ") << phases[0].substr(0, 16) << phases[1].substr(0, 16) << phases[2].substr(0, 16)
-                                         << ": relative difference " << difference);
+    INFO((space ? "space, " : "plane, ") << phases[0].substr(0, 16) << phases[1].substr(0, 16)
+                                         << phases[2].substr(0, 16) << ": relative difference " << difference);
     CHECK(difference < 1e-12);
   } while (std::next_permutation(phases.begin(), phases.end()));
 }
@@ -105,8 +109,8 @@ phase.aluminium = { cobasis = [[1.01, 0.12, 0.0], [0.0, 0.99, 0.12], [0.03, 0.0,
 
 TEST_CASE("the choice of the tangents does not matter where two solids meet") {
   const std::string contact = GENERATE(as<std::string>{}, "sliding", "adherence");
-  const double difference =
-      change_by_turning(space_box + copper + aluminium + air + "[contact]\ndefault = \"" + contact + "\"\n" + three_bodies(true));
+  const double difference = change_by_turning(space_box + copper + aluminium + air + "[contact]\ndefault = \"" +
+                                              contact + "\"\n" + three_bodies(true));
   INFO(contact << ": relative difference " << difference);
   CHECK(difference < 1e-12);
 }

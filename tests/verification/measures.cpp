@@ -31,16 +31,17 @@ Table read_table(const std::string& name) {
     std::istringstream entries(line);
     std::vector<double> row;
     while (std::getline(entries, entry, ',')) {
-      if (table.rows.empty() && !std::isdigit(static_cast<unsigned char>(entry[0]))) table.names.push_back(entry);
-      else row.push_back(std::stod(entry));
+      if (table.rows.empty() && !std::isdigit(static_cast<unsigned char>(entry[0])))
+        table.names.push_back(entry);
+      else
+        row.push_back(std::stod(entry));
     }
     if (!row.empty()) table.rows.push_back(row);
   }
   return table;
 }
 
-Result::Result(const Scene& of)
-    : scene(of), snapshot(of.solver->snapshot()), mixture(mix(snapshot, of.setup.phases)) {}
+Result::Result(const Scene& of) : scene(of), snapshot(of.solver->snapshot()), mixture(mix(snapshot, of.setup.phases)) {}
 
 const PhaseSnapshot& Result::phase(const std::string& name) const {
   for (const PhaseSnapshot& phase : snapshot.phases)

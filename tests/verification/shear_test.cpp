@@ -11,14 +11,14 @@ namespace {
 
 void check_errors(int n) {
   Scene scene = make_case(
-      "shear", {{"scheme.order", "1"}, {"cfl", "1.0"}, {"mesh_parameters", "{ n = " + std::to_string(n) + " }"}}, ranks());
+      "shear", {{"scheme.order", "1"}, {"cfl", "1.0"}, {"mesh_parameters", "{ n = " + std::to_string(n) + " }"}},
+      ranks());
   scene.run();
   const Result result(scene);
   const Table exact = read_table("shear.csv"), errors = read_table("shear_errors.csv");
   const auto check = [&](const std::string& name, const std::vector<double>& field) {
-    const double error = mean(scene, [&](std::int32_t cell) {
-      return std::fabs(field[cell] - exact(name, result.centre(cell).x));
-    });
+    const double error =
+        mean(scene, [&](std::int32_t cell) { return std::fabs(field[cell] - exact(name, result.centre(cell).x)); });
     INFO(n << " cells, " << name << ": error " << error << ", " << error / errors(name, n) << " of the reference");
     CHECK(error < 1.2 * errors(name, n));
   };

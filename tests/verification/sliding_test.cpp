@@ -19,8 +19,12 @@ void check_aligned(const Changes& changes) {
   for (const PhaseSnapshot& phase : result.snapshot.phases) {
     const auto here = [&](std::int32_t cell) { return phase.alpha[cell] > 0; };
     const double v = phase.name == "copper" ? 50 : -50;
-    du = std::max(du, range(scene, [&](auto cell) { return phase.velocity[0][cell]; }, here).distance_to(200));
-    dv = std::max(dv, range(scene, [&](auto cell) { return phase.velocity[1][cell]; }, here).distance_to(v));
+    du = std::max(du, range(
+                          scene, [&](auto cell) { return phase.velocity[0][cell]; }, here)
+                          .distance_to(200));
+    dv = std::max(dv, range(
+                          scene, [&](auto cell) { return phase.velocity[1][cell]; }, here)
+                          .distance_to(v));
   }
   const double dp = range(scene, [&](auto cell) { return result.mixture.pressure[cell]; }).distance_to(1e5);
   const double shear = range(scene, [&](auto cell) { return result.mixture.stress[3][cell]; }).distance_to(0);
@@ -46,16 +50,17 @@ Slip slip_at(double degrees, int element, int n) {
   const auto velocity = [&](double slip) {
     return fmt::format("[{:.17g}, {:.17g}]", 200 * c - slip * s, 200 * s + slip * c);
   };
-  Scene scene = make_case("sliding",
-                          {{"scheme.order", "1"},
-                           {"mesh", "\"../meshes/box.geo\""},
-                           {"mesh_parameters", fmt::format("{{ length = 2, height = 2, n = {}, element = {} }}", n, element)},
-                           {"boundary", "{ \"*\" = \"transmissive\" }"},
-                           {"region.0.velocity", velocity(-50)},
-                           {"region.1.velocity", velocity(50)},
-                           {"region.1.point", "[1.0, 1.0]"},
-                           {"region.1.normal", fmt::format("[{:.17g}, {:.17g}]", -c, -s)}},
-                          ranks());
+  Scene scene =
+      make_case("sliding",
+                {{"scheme.order", "1"},
+                 {"mesh", "\"../meshes/box.geo\""},
+                 {"mesh_parameters", fmt::format("{{ length = 2, height = 2, n = {}, element = {} }}", n, element)},
+                 {"boundary", "{ \"*\" = \"transmissive\" }"},
+                 {"region.0.velocity", velocity(-50)},
+                 {"region.1.velocity", velocity(50)},
+                 {"region.1.point", "[1.0, 1.0]"},
+                 {"region.1.normal", fmt::format("[{:.17g}, {:.17g}]", -c, -s)}},
+                ranks());
   const std::vector<std::string> quantities{"mass.copper", "mass.aluminium"};
   std::vector<double> before;
   for (const std::string& quantity : quantities) before.push_back(balance(*scene.solver, quantity));
@@ -68,13 +73,17 @@ Slip slip_at(double degrees, int element, int n) {
 
   const Result result(scene);
   const PhaseSnapshot &cu = result.phase("copper"), &al = result.phase("aluminium");
-  const auto central = [&](std::int32_t i) { return std::hypot(result.centre(i).x - 1, result.centre(i).y - 1) < 0.35; };
+  const auto central = [&](std::int32_t i) {
+    return std::hypot(result.centre(i).x - 1, result.centre(i).y - 1) < 0.35;
+  };
   const auto contact = [&](std::int32_t i) { return central(i) && cu.alpha[i] > 0.1 && al.alpha[i] > 0.1; };
   const auto along = [&](const PhaseSnapshot& phase, std::int32_t i) {
     return -s * phase.velocity[0][i] + c * phase.velocity[1][i];
   };
-  return {mean(scene, [&](auto i) { return std::fabs(result.mixture.pressure[i] - 1e5); }, central),
-          100 - mean(scene, [&](auto i) { return along(cu, i) - along(al, i); }, contact)};
+  return {mean(
+              scene, [&](auto i) { return std::fabs(result.mixture.pressure[i] - 1e5); }, central),
+          100 - mean(
+                    scene, [&](auto i) { return along(cu, i) - along(al, i); }, contact)};
 }
 
 }  // namespace
@@ -90,7 +99,8 @@ TEST_CASE("solids slide past each other along the faces of hexahedra without los
 
 // No slip passes a face that is oblique to the contact without a normal velocity jump: the bodies stick to each other
 // there, at pressures that do not fall with the mesh but stay below the impedance's, (rho c)_Al 25 m/s = 430 MPa.
-TEST_CASE("the slip is lost, but states stay bounded and conservation exact, where the contact is oblique to the faces") {
+TEST_CASE(
+    "the slip is lost, but states stay bounded and conservation exact, where the contact is oblique to the faces") {
   const int degrees = GENERATE(15, 30, 45);
   const Slip slip = slip_at(degrees, 4, 120);
   INFO(degrees << " degrees: mean |dp| " << slip.pressure / 1e6 << " MPa, slip lost " << slip.lost << " of 100 m/s");

@@ -41,7 +41,8 @@ velocity = )" + (space ? "[100.0, 50.0, -30.0]" : "[100.0, 50.0]") +
   for (std::size_t cell = 0; cell < after.size(); ++cell) {
     for (int i = 1; i <= D; ++i)
       du = std::max(du, std::fabs(after[cell][i] / after[cell][0] - before[cell][i] / before[cell][0]));
-    for (std::size_t i = D + 2; i < after[cell].size(); ++i) de = std::max(de, std::fabs(after[cell][i] - before[cell][i]));
+    for (std::size_t i = D + 2; i < after[cell].size(); ++i)
+      de = std::max(de, std::fabs(after[cell][i] - before[cell][i]));
   }
   INFO("velocity changed by " << du << " m/s, cobasis by " << de);
   CHECK(du < 1e-9);  // [m/s]
