@@ -78,7 +78,7 @@ double Solver::advance(double until) {
 }
 
 void Solver::sweep(Part part) {
-  const Timed timed(clock_.kernels);
+  const Timed timed(clock_.kernels), timed_sweep(clock_.sweeps);
   if (fields_.multiphase()) {
     interfaces_->sort(faces_, fields_, part);
     interfaces_->find_contacts(faces_, fields_, part);

@@ -33,7 +33,9 @@ struct SolverOptions {
 /// Seconds since the start of the last step, and sums over all steps.
 struct StepClock {
   double inside_swept = 0, halo_received = 0;  ///< of the last step
-  double total = 0, kernels = 0;               ///< summed; kernels: inside sweeps, updates and conversions
+  double total = 0;                            ///< of whole steps, summed
+  double kernels = 0;                          ///< inside Pack kernels: contacts, sweeps, updates, conversions; summed
+  double sweeps = 0;                           ///< of these, in sweeps over faces; summed
 };
 
 class Solver {

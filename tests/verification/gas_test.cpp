@@ -79,18 +79,18 @@ void check_contact(const Scene& scene, const GasRiemann& exact,
 
 }  // namespace
 
+// The rarefaction takes the water from 1 GPa to 14 MPa: 1 % of that is 0.014 % of its jump, hence the many cells.
 TEST_CASE("a shock tube of water and air reaches the exact pressure and velocity") {
   const Gas water{4.4, 6e8, 1000, 0, 1e9}, air{1.4, 0, 50, 0, 1e5};
   const GasRiemann exact(water, air);
   const std::string element = GENERATE(as<std::string>{}, "4", "3");
   Scene scene =
-      make_scene(tube(1000, element, 2e-4) + "[phase.water]\nmaterial = \"water\"\n[phase.air]\nmaterial = \"air\"\n" +
+      make_scene(tube(4000, element, 2e-4) + "[phase.water]\nmaterial = \"water\"\n[phase.air]\nmaterial = \"air\"\n" +
                      halves("water", water, "air", air),
                  ranks());
   scene.run();
-  const double tail = exact.u_star - std::pow((exact.p_star + 6e8) / 1.6e9, 3.4 / 8.8) * water.sound_speed();
-  INFO("element " << element << ", tail of the rarefaction " << tail << ", contact " << exact.u_star);
-  check_contact(scene, exact, {{0.6 * tail, 0.5 * exact.u_star}});
+  INFO("element " << element << ", contact at " << exact.u_star << " m/s");
+  check_contact(scene, exact, {{0, 0.9 * exact.u_star}});
 }
 
 TEST_CASE("a shock tube of helium and nitrogen reaches the exact pressure and velocity") {

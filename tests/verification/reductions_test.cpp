@@ -106,6 +106,7 @@ velocity = [300.0, 20.0]
   const std::string none, zero = "elastic = { mu = 0.0, rho0 = 2700.0, a = 0.5 }\n";
   const Scene fluid = run(none), solid = run(zero);
   const Result f(fluid), s(solid);
+  CHECK(s.phase("liquid").is_solid);
   double largest = 0;
   const auto compare = [&](double scale, auto&& value) {
     for (std::int32_t cell = 0; cell < f.cells(); ++cell)
@@ -126,7 +127,6 @@ velocity = [300.0, 20.0]
 TEST_CASE("two phases that are the same, everywhere in the same proportion, are one") {
   const std::string material = GENERATE(as<std::string>{}, "aluminium", "water");
   const auto run = [&](bool two) {
-    const std::string phase = "[phase.{}]\nmaterial = \"{}\"\n";
     const std::string fill = two ? "alpha = { one = 0.3, other = 0.7 }" : "fill = \"one\"";
     Scene scene =
         make_scene(square + fmt::format("[phase.one]\nmaterial = \"{}\"\n", material) +

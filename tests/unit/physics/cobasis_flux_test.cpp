@@ -27,7 +27,9 @@ Numbers per_entry(F&& f) {
   return result;
 }
 
-double along(const Numbers& e, int beta, const Point& v) { return e[beta][0] * v.x + e[beta][1] * v.y + e[beta][2] * v.z; }
+double along(const Numbers& e, int beta, const Point& v) {
+  return e[beta][0] * v.x + e[beta][1] * v.y + e[beta][2] * v.z;
+}
 
 /// A solid on each side, `jump` of everything apart.
 struct Contact {
@@ -76,7 +78,8 @@ TEST_CASE("between equal states the cobasis does not change, to the last bit of 
   }
 }
 
-TEST_CASE("both sides together change the cobasis by the jumps of (8): u·n [e] + n (e·[u]), to second order in the jump") {
+TEST_CASE(
+    "both sides together change the cobasis by the jumps of (8): u·n [e] + n (e·[u]), to second order in the jump") {
   for (int sample = 0; sample < 50; ++sample) {
     const auto defect = [&](double jump) {
       const Contact c(Random(sample), jump);
@@ -106,13 +109,11 @@ TEST_CASE("the longitudinal wave carries the jump of the cobasis with its speed:
     if (!(star.u_f == star.u_star)) continue;
     const Frame<Space, double> frame = random.frame();
     const Cobasis<Space, double> e = random.cobasis(0.3), e_star = stretched(e, frame, star.r);
-    const Numbers D =
-        rows<double>(fluctuation(star.u_f, e_star, e, (star.u_f - s.u.x) * frame.n, frame));
+    const Numbers D = rows<double>(fluctuation(star.u_f, e_star, e, (star.u_f - s.u.x) * frame.n, frame));
     const Numbers before = rows<double>(e), after = rows<double>(e_star);
     const double scale = (std::fabs(S) + std::fabs(star.u_f)) * (1 + largest(after));
-    CHECK(largest(per_entry([&](int beta, int i) {
-            return D[beta][i] - S * (after[beta][i] - before[beta][i]);
-          })) < 1e-12 * scale);
+    CHECK(largest(per_entry([&](int beta, int i) { return D[beta][i] - S * (after[beta][i] - before[beta][i]); })) <
+          1e-12 * scale);
   }
 }
 

@@ -16,7 +16,9 @@ struct Dual {
   friend Dual operator-(const Dual& a) { return {-a.value, -a.slope}; }
   friend Dual operator+(const Dual& a, const Dual& b) { return {a.value + b.value, a.slope + b.slope}; }
   friend Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.slope - b.slope}; }
-  friend Dual operator*(const Dual& a, const Dual& b) { return {a.value * b.value, a.slope * b.value + a.value * b.slope}; }
+  friend Dual operator*(const Dual& a, const Dual& b) {
+    return {a.value * b.value, a.slope * b.value + a.value * b.slope};
+  }
   friend Dual operator/(const Dual& a, const Dual& b) {
     const double q = a.value / b.value;
     return {q, (a.slope - q * b.slope) / b.value};

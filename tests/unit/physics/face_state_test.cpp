@@ -117,7 +117,8 @@ TEST_CASE("wave speeds at rest are those of the paper's materials") {
     const char* name;
     double c1, cs;
   };
-  for (const Row& row : {Row{"aluminium", 6317.7, 3103.2}, Row{"copper", 5470.1, 3215.1}, Row{"carbopol", 48.710, 0.2887}}) {
+  for (const Row& row :
+       {Row{"aluminium", 6317.7, 3103.2}, Row{"copper", 5470.1, 3215.1}, Row{"carbopol", 48.710, 0.2887}}) {
     CAPTURE(row.name);
     const Material& material = *find_material(row.name);
     const auto& eos = std::get<StiffenedGas>(material.eos);
@@ -129,7 +130,8 @@ TEST_CASE("wave speeds at rest are those of the paper's materials") {
     CHECK(f.c1 == Approx(row.c1).epsilon(1e-5));
     CHECK(f.cs == Approx(row.cs).epsilon(2e-4));
     CHECK(f.P == Approx(1e5).margin(1e-4 * material.elastic->mu * 1e-10));
-    CHECK(f.c1 * f.c1 == Approx((eos.gamma * (1e5 + eos.p_inf) + 4.0 / 3 * material.elastic->mu) / material.rho0).epsilon(1e-13));
+    CHECK(f.c1 * f.c1 ==
+          Approx((eos.gamma * (1e5 + eos.p_inf) + 4.0 / 3 * material.elastic->mu) / material.rho0).epsilon(1e-13));
     CHECK(f.cs * f.cs == Approx(material.elastic->mu / material.rho0).epsilon(1e-13));
   }
 }

@@ -51,8 +51,8 @@ TEST_CASE("the metric has determinant one and does not feel a change of volume o
   for (int sample = 0; sample < 200; ++sample) {
     const Cobasis<Space, double> e = random.cobasis(1.0);
     const Symmetric<Space, double> g = normalised_metric(e);
-    const double det = g.xx * (g.yy * g.zz - g.yz * g.yz) - g.xy * (g.xy * g.zz - g.yz * g.xz) +
-                       g.xz * (g.xy * g.yz - g.yy * g.xz);
+    const double det =
+        g.xx * (g.yy * g.zz - g.yz * g.yz) - g.xy * (g.xy * g.zz - g.yz * g.xz) + g.xz * (g.xy * g.yz - g.yy * g.xz);
     CHECK(det == Approx(1).epsilon(1e-12));
 
     const Frame<Space, double> q = random.frame();
@@ -75,8 +75,8 @@ TEST_CASE("the stress has no trace and turns with the solid") {
     const Frame<Space, double> q = random.frame();
     const auto turn = [&](const Point& v) { return out_of_frame(q, v); };
     const Symmetric<Space, double> S = deviatoric_stress(copper(a), rho, normalised_metric(e));
-    const Symmetric<Space, double> turned =
-        deviatoric_stress(copper(a), rho, normalised_metric(Cobasis<Space, double>{turn(e.e1), turn(e.e2), turn(e.e3)}));
+    const Symmetric<Space, double> turned = deviatoric_stress(
+        copper(a), rho, normalised_metric(Cobasis<Space, double>{turn(e.e1), turn(e.e2), turn(e.e3)}));
     const double scale = std::fabs(S.xx) + std::fabs(S.yy) + std::fabs(S.zz) + copper(a).mu;
     CHECK(std::fabs(trace(S)) < 1e-13 * scale);
     const Rows<double> m = matrix(turned);

@@ -127,7 +127,8 @@ TEST_CASE("star states satisfy the jump conditions on both sides") {
     const State expected = flux_of(inside, star.P_star);
     for (int i = 0; i < 5; ++i) {
       CAPTURE(i);
-      const double size = std::fabs(expected[i]) + std::fabs(exact[i]) + std::fabs(S) * (std::fabs(inside[i]) + std::fabs(outside[i]));
+      const double size =
+          std::fabs(expected[i]) + std::fabs(exact[i]) + std::fabs(S) * (std::fabs(inside[i]) + std::fabs(outside[i]));
       CHECK(std::fabs(f[i] - expected[i]) < 1e-9 * size);
       CHECK(std::fabs(f[i] - (exact[i] + S * (inside[i] - outside[i]))) < 1e-9 * size);  // Rankine-Hugoniot
     }
@@ -141,7 +142,8 @@ TEST_CASE("exchanging left and right mirrors the solution") {
     const Side l = random.face(), r = random.face();
     const Star star = longitudinal<double>(l, r), image = longitudinal<double>(reversed(r), reversed(l));
     CAPTURE(sample);
-    const double c = l.c1 + r.c1, P = std::fabs(star.P_star) + std::fabs(l.P) + std::fabs(r.P) + l.rho * l.c1 * l.c1 + r.rho * r.c1 * r.c1;
+    const double c = l.c1 + r.c1, P = std::fabs(star.P_star) + std::fabs(l.P) + std::fabs(r.P) + l.rho * l.c1 * l.c1 +
+                                      r.rho * r.c1 * r.c1;
     CHECK(std::fabs(image.u_star + star.u_star) < 1e-12 * c);
     CHECK(std::fabs(image.P_star - star.P_star) < 1e-12 * P);
     if (std::fabs(star.u_star) < 1e-3 * c) continue;  // the round-off of u* then shows in the flux
@@ -194,7 +196,8 @@ TEST_CASE("a free surface is the acoustic problem against a constant pressure") 
     CAPTURE(sample);
     CHECK(star.P_star == p0);
     const double c = std::max(s.c1, std::sqrt(std::max(0.0, 1.2 * (p0 - s.P) / s.rho)));
-    CHECK(s.rho * c * (star.u_star - s.u.x) == Approx(s.P - p0).epsilon(1e-9));  // P + rho c u is constant across the wave
+    CHECK(s.rho * c * (star.u_star - s.u.x) ==
+          Approx(s.P - p0).epsilon(1e-9));  // P + rho c u is constant across the wave
     CHECK(star.from_left == (star.u_star > 0));
     if (!star.from_left) {
       ++retreating;

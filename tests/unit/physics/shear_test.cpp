@@ -14,13 +14,15 @@ using Side = SolidFace<Space, double>;
 using Star = ShearStar<Space, double>;
 
 void check_finite(const Star& star) {
-  for (const double x : {star.tau.y, star.tau.z, star.w_l.y, star.w_l.z, star.w_r.y, star.w_r.z}) CHECK(std::isfinite(x));
+  for (const double x : {star.tau.y, star.tau.z, star.w_l.y, star.w_l.z, star.w_r.y, star.w_r.z})
+    CHECK(std::isfinite(x));
 }
 
 }  // namespace
 
 TEST_CASE("bonded solids take the exact solution of the linear shear problem") {
-  // rho dw/dt = dtau/dx, dtau/dt = rho c^2 dw/dx: tau - z w is constant across the left wave, tau + z w across the right
+  // rho dw/dt = dtau/dx, dtau/dt = rho c^2 dw/dx: tau - z w is constant across the left wave, tau + z w across the
+  // right
   Random random(1);
   for (int sample = 0; sample < 1000; ++sample) {
     const Side l = random.face(), r = random.face();

@@ -60,7 +60,8 @@ TEST_CASE("a step of a solid alone allocates nothing") {
 }
 
 TEST_CASE("a step with an interface that moves through the mesh allocates nothing") {
-  for (const std::vector<std::string>& phases : {std::vector<std::string>{"void", "copper"}, {"water", "copper", "aluminium"}}) {
+  for (const std::vector<std::string>& phases :
+       {std::vector<std::string>{"void", "copper"}, {"water", "copper", "aluminium"}}) {
     Setup setup = busy_setup(phases, true);
     CAPTURE(phases);
     CHECK(allocations_in_steps(setup, CellType::quadrilateral, 16, 5, 40) == 0);

@@ -29,7 +29,8 @@ const std::vector<BusyScene> scenes = {
 }  // namespace
 
 TEST_CASE("packs of cells and faces give what one at a time gives") {
-  for (const CellType type : {CellType::quadrilateral, CellType::triangle, CellType::hexahedron, CellType::tetrahedron}) {
+  for (const CellType type :
+       {CellType::quadrilateral, CellType::triangle, CellType::hexahedron, CellType::tetrahedron}) {
     const bool plane = type == CellType::quadrilateral || type == CellType::triangle;
     for (const BusyScene& scene : scenes) {
       for (const double mixed_in : {0.0, 1e-6}) {
@@ -89,7 +90,8 @@ TEST_CASE("a step does not depend on the orientation of the faces") {
       }
       for (std::int32_t& entry : turned.cell_faces)
         if (entry >= 0 && entry / 2 < turned.n_interior_faces && entry / 2 % 2 == 0) entry ^= 1;
-      SmallScene one = small_scene(setup, small_mesh(type, plane ? 11 : 5)), other = small_scene(setup, std::move(turned));
+      SmallScene one = small_scene(setup, small_mesh(type, plane ? 11 : 5)),
+                 other = small_scene(setup, std::move(turned));
       CAPTURE(shape_of(type).name, scene.name);
       const double dt = one.solver->advance(1);
       CHECK(other.solver->advance(1) == Approx(dt).epsilon(1e-12));

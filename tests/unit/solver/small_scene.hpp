@@ -75,7 +75,8 @@ inline Mesh small_mesh(CellType type, int n, double warp = 0.2) {
         const auto shift = [&](double phase) {
           return edge ? 0 : warp / n * std::sin(12.9898 * i + 78.233 * j + 37.719 * k + phase);
         };
-        raw.nodes.push_back({place.back().x + shift(0), place.back().y + shift(1), plane ? 0 : place.back().z + shift(2)});
+        raw.nodes.push_back(
+            {place.back().x + shift(0), place.back().y + shift(1), plane ? 0 : place.back().z + shift(2)});
       }
     }
   }
@@ -234,7 +235,10 @@ inline double largest_difference(const Fields& a, const Fields& b) {
     for (int i = 1; i <= a.dimension; ++i) momentum = std::max(momentum, magnitude(p.conserved[i]));
     for (int c = 0; c < p.n_conserved(); ++c) {
       const bool vector = c >= 1 && c <= a.dimension;
-      compare(p.conserved[c], q.conserved[c], vector ? momentum : c < a.first_cobasis() ? magnitude(p.conserved[c]) : 1);
+      compare(p.conserved[c], q.conserved[c],
+              vector                  ? momentum
+              : c < a.first_cobasis() ? magnitude(p.conserved[c])
+                                      : 1);
     }
   }
   return worst;

@@ -68,7 +68,8 @@ struct Strip {
     for (std::int32_t i = 0; i < mesh.n_owned; ++i) {
       const double V = mesh.volume[i];
       sums[0] += V * phase.alpha[i];
-      for (int c = 0; c < phase.n_conserved(); ++c) sums[1 + c] += V * phase.conserved[c][i] * (c < 4 ? 1 : phase.alpha[i]);
+      for (int c = 0; c < phase.n_conserved(); ++c)
+        sums[1 + c] += V * phase.conserved[c][i] * (c < 4 ? 1 : phase.alpha[i]);
     }
     return sums;
   }
@@ -151,7 +152,8 @@ TEST_CASE("what a donor keeps of the phase it gives is as it was, and what moves
   const auto mixed = s.intensive(solid, 2);
   const double share = 4e-4 / (1.2 + 4e-4);
   CHECK(mixed[0] == Approx(met[0] + share * (moved[0] - met[0])).epsilon(1e-14));
-  for (int c = 4; c < 4 + Plane::n_cobasis; ++c) CHECK(mixed[c] == Approx(met[c] + share * (moved[c] - met[c])).epsilon(1e-14));
+  for (int c = 4; c < 4 + Plane::n_cobasis; ++c)
+    CHECK(mixed[c] == Approx(met[c] + share * (moved[c] - met[c])).epsilon(1e-14));
 }
 
 TEST_CASE("a front that has just entered from a cell without the other phase is kept") {

@@ -1,0 +1,104 @@
+// What a step costs per scene, with the kernels on packs and, in turn, on single numbers.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "support/scene.hpp"
+
+using namespace cobasis;
+using namespace cobasis::test;
+
+namespace {
+
+struct Cost {
+  double seconds = 0, kernels = 0, sweeps = 0;  ///< per step
+};
+
+/// The fastest of several rounds of steps.
+Cost measure(Scene& scene, int rounds, int steps) {
+  Cost best{infinity, infinity, infinity};
+  for (int round = 0; round < rounds; ++round) {
+    const StepClock before = scene.solver->clock();
+    for (int i = 0; i < steps; ++i) scene.solver->advance(infinity);
+    const StepClock& after = scene.solver->clock();
+    best.seconds = std::min(best.seconds, (after.total - before.total) / steps);
+    best.kernels = std::min(best.kernels, (after.kernels - before.kernels) / steps);
+    best.sweeps = std::min(best.sweeps, (after.sweeps - before.sweeps) / steps);
+  }
+  return best;
+}
+
+std::size_t bytes_per_cell(const Fields& fields) {
+  std::size_t numbers = 0;
+  for (const Phase& phase : fields.phases)
+    if (!phase.is_void) numbers += phase.conserved.size() + phase.primitive.size() + (phase.alpha.empty() ? 0 : 1);
+  return numbers * sizeof(double);
+}
+
+void benchmark(const std::string& name, const std::string& text, int steps) {
+  SceneOptions scalar;
+  scalar.solver.scalar = true;
+  Scene packs = make_scene(text, ranks()), numbers = make_scene(text, ranks(), scalar);
+  measure(packs, 1, 5);
+  measure(numbers, 1, 2);
+  Cost pack{infinity, infinity, infinity}, single = pack;
+  for (int round = 0; round < 5; ++round) {  // in turn: a machine that slows down slows both
+    const Cost p = measure(packs, 1, steps), s = measure(numbers, 1, std::max(1, steps / 4));
+    pack = {std::min(pack.seconds, p.seconds), std::min(pack.kernels, p.kernels), std::min(pack.sweeps, p.sweeps)};
+    single = {std::min(single.seconds, s.seconds), std::min(single.kernels, s.kernels), std::min(single.sweeps, s.sweeps)};
+  }
+  const double cells = packs.mesh.n_global, faces = packs.mesh.n_faces();
+  const int equations = packs.solver->equations();
+  std::cout << fmt::format("{:<34} {:>8} {:>4} {:>6} {:>9.1f} {:>9.2f} {:>9.1f} {:>7.1f} {:>7.1f} {:>6.0f}\n", name,
+                           packs.mesh.n_global, equations, bytes_per_cell(packs.solver->fields()),
+                           1e9 * pack.seconds / cells, 1e9 * pack.seconds / cells / equations, 1e9 * pack.sweeps / faces,
+                           single.sweeps / pack.sweeps, single.seconds / pack.seconds, 100 * pack.kernels / pack.seconds);
+}
+
+std::string scene(const std::string& mesh, const std::string& phases, const std::string& regions) {
+  return "mesh = \"@" + mesh + "\"\nend_time = 1e9\n" + phases + regions + "[boundary]\n\"*\" = \"wall\"\n";
+}
+
+const std::string solid = "[phase.aluminium]\nmaterial = \"aluminium\"\n", gas = "[phase.air]\nmaterial = \"air\"\n",
+                  copper = "[phase.copper]\nmaterial = \"copper\"\n",
+                  nothing = "[phase.surroundings]\nvoid = { pressure = 1e5 }\n";
+
+std::string fill(const std::string& shape, const std::string& phase, const std::string& velocity) {
+  return "[[region]]\n" + shape + "\nfill = \"" + phase + "\"\npressure = 1e5\n" +
+         (velocity.empty() ? "" : "velocity = [" + velocity + "]\n");
+}
+
+}  // namespace
+
+int main() {
+  int no_arguments = 0;
+  char** arguments = nullptr;
+  const Mpi mpi(no_arguments, arguments);
+  const std::string triangles = "box.geo\"\nmesh_parameters = { n = 200, element = 3 }\n#\"";
+  const std::string hexahedra = "box_space.geo\"\nmesh_parameters = { n = 40, element = 8 }\n#\"";
+  const std::string tetrahedra = "box_space.geo\"\nmesh_parameters = { n = 26, element = 4 }\n#\"";
+  const std::string all = "shape = \"everywhere\"";
+  const std::string disc = "shape = \"sphere\"\ncenter = [0.5, 0.5]\nradius = 0.3",
+                    ball = "shape = \"sphere\"\ncenter = [0.5, 0.5, 0.5]\nradius = 0.3";
+  std::cout << fmt::format("{} lanes; one core; the fastest of five rounds\n", pack_width)
+            << fmt::format("{:<34} {:>8} {:>4} {:>6} {:>9} {:>9} {:>9} {:>7} {:>7} {:>6}\n", "scene", "cells", "eqs",
+                           "B/cell", "ns/cell", "ns/c/eq", "sweep", "sweep", "step", "in")
+            << fmt::format("{:<34} {:>8} {:>4} {:>6} {:>9} {:>9} {:>9} {:>7} {:>7} {:>6}\n", "", "", "", "", "", "",
+                           "ns/face", "gain", "gain", "packs%");
+  benchmark("plane, triangles: gas", scene(triangles, gas, fill(all, "air", "\"100*y\", 0")), 40);
+  benchmark("plane, triangles: solid", scene(triangles, solid, fill(all, "aluminium", "\"100*y\", 0")), 40);
+  benchmark("plane, triangles: solid in gas",
+            scene(triangles, solid + gas, fill(all, "air", "") + fill(disc, "aluminium", "100, 20")), 40);
+  benchmark("plane, triangles: solid in void",
+            scene(triangles, solid + nothing, fill(all, "surroundings", "") + fill(disc, "aluminium", "100, 20")), 40);
+  benchmark("plane, triangles: solid in solid",
+            scene(triangles, solid + copper, fill(all, "copper", "") + fill(disc, "aluminium", "100, 20")), 40);
+  benchmark("space, hexahedra: gas", scene(hexahedra, gas, fill(all, "air", "\"100*y\", 0, 0")), 20);
+  benchmark("space, hexahedra: solid", scene(hexahedra, solid, fill(all, "aluminium", "\"100*y\", 0, 0")), 20);
+  benchmark("space, tetrahedra: solid", scene(tetrahedra, solid, fill(all, "aluminium", "\"100*y\", 0, 0")), 20);
+  benchmark("space, hexahedra: solid in gas",
+            scene(hexahedra, solid + gas, fill(all, "air", "") + fill(ball, "aluminium", "100, 20, 0")), 20);
+  benchmark("space, hexahedra: solid in void",
+            scene(hexahedra, solid + nothing, fill(all, "surroundings", "") + fill(ball, "aluminium", "100, 20, 0")), 20);
+}
