@@ -39,11 +39,16 @@ Real trace_of_square(const Symmetric<G, Real>& g) {
 template <class G, class Real>
 Real determinant(const Cobasis<G, Real>& e) { return dot(cross(e.e1, e.e2), e.e3); }
 
-/// G / |G|^{1/3}, |G| = det(e)^2
+/// |G|^{-1/3}, |G| = det(e)^2
 template <class G, class Real>
-Symmetric<G, Real> normalised_metric(const Cobasis<G, Real>& e) {
+Real metric_scale(const Cobasis<G, Real>& e) {
   const Real root = cube_root(determinant(e));
-  const Real scale = 1.0 / (root * root);
+  return 1.0 / (root * root);
+}
+
+/// g = G / |G|^{1/3} from e and its metric_scale.
+template <class G, class Real>
+Symmetric<G, Real> scaled_metric(const Cobasis<G, Real>& e, const Real& scale) {
   return {.xx = scale * (e.e1.x * e.e1.x + e.e2.x * e.e2.x + e.e3.x * e.e3.x),
           .yy = scale * (e.e1.y * e.e1.y + e.e2.y * e.e2.y + e.e3.y * e.e3.y),
           .zz = scale * (e.e1.z * e.e1.z + e.e2.z * e.e2.z + e.e3.z * e.e3.z),
@@ -51,6 +56,9 @@ Symmetric<G, Real> normalised_metric(const Cobasis<G, Real>& e) {
           .xz = scale * (e.e1.x * e.e1.z + e.e2.x * e.e2.z + e.e3.x * e.e3.z),
           .yz = scale * (e.e1.y * e.e1.z + e.e2.y * e.e2.z + e.e3.y * e.e3.z)};
 }
+
+template <class G, class Real>
+Symmetric<G, Real> normalised_metric(const Cobasis<G, Real>& e) { return scaled_metric(e, metric_scale(e)); }
 
 /// e^e [J/kg]; zero, with the stress, at g = I.
 template <class G, class Real>

@@ -9,14 +9,12 @@ namespace cobasis {
 struct Plane {
   static constexpr int dimension = 2;
   static constexpr int n_cobasis = 5;  ///< e^1_x e^1_y e^2_x e^2_y e^3_z
-  static constexpr int n_metric = 4;   ///< xx yy zz xy
   template <class Real> using Third = Zero;
 };
 
 struct Space {
   static constexpr int dimension = 3;
   static constexpr int n_cobasis = 9;  ///< e^1_x e^1_y e^1_z e^2_x … e^3_z
-  static constexpr int n_metric = 6;   ///< xx yy zz xy xz yz
   template <class Real> using Third = Real;
 };
 

@@ -31,10 +31,9 @@ COBASIS_KERNEL void primitives(Phase& phase, const EquationOfState& eos, const A
     if constexpr (K == Kind::solid) {
       const Cobasis<G, Real> e = load_cobasis<G, Real>(phase, at);
       good = good && determinant(e) > Real(0.0);
-      const Symmetric<G, Real> g = normalised_metric(e);
-      e_h = e_h - elastic_energy(phase.material, g);
-      keep(L::metric, g.xx), keep(L::metric + 1, g.yy), keep(L::metric + 2, g.zz), keep(L::metric + 3, g.xy);
-      if constexpr (G::dimension == 3) keep(L::metric + 4, g.xz), keep(L::metric + 5, g.yz);
+      const Real scale = metric_scale(e);
+      e_h = e_h - elastic_energy(phase.material, scaled_metric(e, scale));
+      keep(L::metric_scale, scale);
     }
     const Real p = eos.pressure(rho, e_h);
     good = good && p > Real(eos.lowest_pressure());

@@ -7,9 +7,10 @@ namespace {
 constexpr const char* axis_names[] = {"x", "y", "z"};
 
 Symmetric<Space, double> metric_of(const Phase& phase, int dimension, std::int32_t cell) {
-  const auto g = [&](int c) { return phase.primitive[4 + dimension + c][cell]; };
-  return dimension == 2 ? Symmetric<Space, double>{g(0), g(1), g(2), g(3), 0, 0}
-                        : Symmetric<Space, double>{g(0), g(1), g(2), g(3), g(4), g(5)};
+  const Indices<double> at{cell};
+  if (dimension == 3) return normalised_metric(load_cobasis<Space, double>(phase, at));
+  const Symmetric<Plane, double> g = normalised_metric(load_cobasis<Plane, double>(phase, at));
+  return {g.xx, g.yy, g.zz, g.xy, 0, 0};
 }
 
 }  // namespace

@@ -52,23 +52,32 @@ void for_each_component(const Cobasis<G, Real>& e, F&& f) {
   }
 }
 
-template <class G, Kind K, class Real>
-Face<G, K, Real> load_face_state(const Phase& phase, const Indices<Real>& cell, const Frame<G, Real>& frame) {
-  using L = Layout<G, K>;
+template <class G, class Real>
+FluidState<G, Real> load_fluid_state(const Phase& phase, const Indices<Real>& cell) {
+  using L = Layout<G, Kind::fluid>;
   const auto component = [&](int c) { return gather<Real>(phase.primitive[c].data(), cell); };
-  FluidState<G, Real> fluid{component(L::rho), load_vector<G, Real>(phase.primitive, L::u, cell), component(L::p),
-                            component(L::ch2), component(L::E)};
-  if constexpr (K == Kind::fluid) {
-    return face_state(fluid, frame);
-  } else {
-    SolidState<G, Real> solid{fluid, {}};
-    solid.g.xx = component(L::metric), solid.g.yy = component(L::metric + 1), solid.g.zz = component(L::metric + 2);
-    solid.g.xy = component(L::metric + 3);
-    if constexpr (G::dimension == 3) {
-      solid.g.xz = component(L::metric + 4), solid.g.yz = component(L::metric + 5);
-    }
-    return face_state(phase.material, solid, frame);
-  }
+  return {component(L::rho), load_vector<G, Real>(phase.primitive, L::u, cell), component(L::p), component(L::ch2),
+          component(L::E)};
+}
+
+/// A fluid's state carries no cobasis: Zero stands in its place.
+template <class G, Kind K, class Real>
+auto load_cobasis_of(const Phase& phase, const Indices<Real>& cell) {
+  if constexpr (K == Kind::solid) return load_cobasis<G, Real>(phase, cell);
+  else return Zero{};
+}
+
+template <class G, class Real>
+FluidFace<G, Real> load_face_state(const Phase& phase, const Indices<Real>& cell, Zero, const Frame<G, Real>& frame) {
+  return face_state(load_fluid_state<G, Real>(phase, cell), frame);
+}
+/// The metric is formed from e again: that is cheaper than to load six more numbers.
+template <class G, class Real>
+SolidFace<G, Real> load_face_state(const Phase& phase, const Indices<Real>& cell, const Cobasis<G, Real>& e,
+                                   const Frame<G, Real>& frame) {
+  const Real scale = gather<Real>(phase.primitive[Layout<G, Kind::solid>::metric_scale].data(), cell);
+  return face_state(phase.material, SolidState<G, Real>{load_fluid_state<G, Real>(phase, cell), scaled_metric(e, scale)},
+                    frame);
 }
 
 /// The slots of one pack in one buffer: component c of lane i at data[at[i] + c * pack_width].
@@ -97,12 +106,6 @@ inline std::int32_t gain_slot(std::int32_t slot, std::int32_t first_mixed) {
   return slot < first_mixed ? 0 : slot - first_mixed + pack_width;
 }
 
-/// A face raises its fastest signal; several phases and pairs may speak for it.
-template <class Real>
-void raise_fastest(Faces& faces, const Indices<Real>& at, const Real& speed) {
-  scatter(faster(gather<Real>(faces.fastest.data(), at), speed), faces.fastest.data(), at);
-}
-
 enum class Beyond { cell, mirror };  ///< what lies right of a face: another cell, or the mirror image of the left one
 
 /// Riemann problem of a phase with itself. Pure: the whole face. Mixed: its share S_kk (possibly 0); the traction and
@@ -113,24 +116,26 @@ COBASIS_KERNEL void sweep_same(Faces& faces, Phase& phase, Segment segment) {
   const CompactList<std::int32_t>& list = Mixed ? phase.lists.mixed : phase.lists.pure;
   const std::int32_t first_slot = Mixed ? first_mixed_slot(faces) : pack_width;
   for (std::int32_t i = segment.first; i < segment.last; i += lanes<Real>) {
-    const Indices<Real> at = load_indices<Real>(&list[i]);
-    Indices<Real> left = lookup<Real>(faces.left.data(), at), right = lookup<Real>(faces.right.data(), at);
+    const FacePack<Real> face(&list[i]);
+    Indices<Real> left = face(faces.left), right = face(faces.right);
     if constexpr (Mixed) {
       for (int j = 0; j < lanes<Real>; ++j) {  // where the phase is absent, the present side's state stands in, unused
         if (!(phase.alpha[left[j]] > 0)) left[j] = right[j];
         if (!(phase.alpha[right[j]] > 0)) right[j] = left[j];
       }
     }
-    const Frame<G, Real> frame = load_frame<G, Real>(faces, at);
-    const auto l = load_face_state<G, K, Real>(phase, left, frame);
+    const Frame<G, Real> frame = load_frame<G, Real>(faces, face);
+    const auto e_l = load_cobasis_of<G, K, Real>(phase, left);
+    const auto e_r = load_cobasis_of<G, K, Real>(phase, B == Beyond::mirror ? left : right);
+    const Face<G, K, Real> l = load_face_state<G, Real>(phase, left, e_l, frame);
     Face<G, K, Real> r;
     if constexpr (B == Beyond::mirror) r = mirrored(l);
-    else r = load_face_state<G, K, Real>(phase, right, frame);
-    raise_fastest(faces, at, faster(signal_speed(l), signal_speed(r)));
+    else r = load_face_state<G, Real>(phase, right, e_r, frame);
+    raise_fastest(faces, face, faster(signal_speed(l), signal_speed(r)));
 
     const LongitudinalStar<Real> star = longitudinal<Real>(l, r);
     Flux<G, Real> flux = eulerian_flux<G>(star, l, r);
-    Real weight = gather<Real>(faces.area.data(), at);
+    Real weight = face(faces.area);
     if constexpr (Mixed) weight = weight * load<Real>(&phase.lists.mixed_share[i]);
 
     const std::int32_t slot = first_slot + i;
@@ -140,7 +145,6 @@ COBASIS_KERNEL void sweep_same(Faces& faces, Phase& phase, Segment segment) {
       flux.momentum = flux.momentum - shear.tau;
       flux.energy = flux.energy - dot(shear.tau, shear.w_l);
 
-      const Cobasis<G, Real> e_l = load_cobasis<G, Real>(phase, left);
       const Vector<G, Real> du_l = out_of_frame(
           frame, Vec3{star.u_f - l.u.x, shear.w_l.y - l.u.y, shear.w_l.z - l.u.z});
       const auto keep = [&](int side, const Cobasis<G, Real>& change) {
@@ -151,7 +155,6 @@ COBASIS_KERNEL void sweep_same(Faces& faces, Phase& phase, Segment segment) {
       if constexpr (B == Beyond::mirror) {
         keep(0, weight * fluctuation(star.u_f, e_l, e_l, du_l, frame));
       } else {
-        const Cobasis<G, Real> e_r = load_cobasis<G, Real>(phase, right);
         const Cobasis<G, Real> e_f = stretched(upwind(star.from_left, e_l, e_r), frame, star.r);
         const Vector<G, Real> du_r = out_of_frame(
             frame, Vec3{star.u_f - r.u.x, shear.w_r.y - r.u.y, shear.w_r.z - r.u.z});
@@ -233,8 +236,8 @@ struct PairSlots {
   using L = Layout<G, K>;
   SlotPack<Real> flux, gain, sides;
 
-  PairSlots(const Faces& faces, Phase& phase, const Indices<Real>& at) {
-    const Indices<Real> slots = lookup<Real>(phase.lists.slot_of_face.data(), at);
+  PairSlots(const Faces& faces, Phase& phase, const FacePack<Real>& face) {
+    const Indices<Real> slots = face(phase.lists.slot_of_face);
     Indices<Real> own;
     for (int i = 0; i < lanes<Real>; ++i) own[i] = gain_slot(slots[i], first_mixed_slot(faces));
     flux = slot_pack<Real>(phase.flux, L::n_flux, slots);
@@ -269,17 +272,17 @@ enum class Tangent { free, bonded };  ///< sliding phases, a fluid or a void are
 template <class G, Kind Kl, Kind Km, Tangent T, class Real>
 COBASIS_KERNEL void sweep_pair(Faces& faces, Phase& phase_l, Phase& phase_m, const PairList& list, Segment segment) {
   for (std::int32_t i = segment.first; i < segment.last; i += lanes<Real>) {
-    const Indices<Real> at = load_indices<Real>(&list.face[i]);
-    const Indices<Real> left = lookup<Real>(faces.left.data(), at), right = lookup<Real>(faces.right.data(), at);
-    const Frame<G, Real> frame = load_frame<G, Real>(faces, at);
-    const PairSlots<G, Kl, Real> slots_l(faces, phase_l, at);
-    const PairSlots<G, Km, Real> slots_m(faces, phase_m, at);
+    const FacePack<Real> face(&list.face[i]);
+    const Indices<Real> left = face(faces.left), right = face(faces.right);
+    const Frame<G, Real> frame = load_frame<G, Real>(faces, face);
+    const PairSlots<G, Kl, Real> slots_l(faces, phase_l, face);
+    const PairSlots<G, Km, Real> slots_m(faces, phase_m, face);
     const auto l = recall_side<G, Kl, Real>(phase_l, slots_l.sides, 0, left, frame);
     const auto m = recall_side<G, Km, Real>(phase_m, slots_m.sides, 1, right, frame);
 
     const LongitudinalStar<Real> star = longitudinal<Real>(l, m);
     const ContactFlux<G, Real> contact(star, eulerian_flux<G>(star, l, m), frame);
-    const Real weight = gather<Real>(faces.area.data(), at) * load<Real>(&list.share[i]);
+    const Real weight = face(faces.area) * load<Real>(&list.share[i]);
     const Real zero(0.0);
     const Real weight_l = select(star.from_left, weight, zero), weight_m = select(star.from_left, zero, weight);
 
@@ -325,23 +328,22 @@ COBASIS_KERNEL void sweep_pair(Faces& faces, Phase& phase_l, Phase& phase_m, con
 template <class G, Kind K, class Real>
 COBASIS_KERNEL void sweep_free_surface(Faces& faces, Phase& phase, double p0, const PairList& list, Segment segment) {
   for (std::int32_t i = segment.first; i < segment.last; i += lanes<Real>) {
-    const Indices<Real> at = load_indices<Real>(&list.face[i]);
-    const auto& first = list.side == 0 ? faces.left : faces.right;
-    const auto& second = list.side == 0 ? faces.right : faces.left;
-    const Indices<Real> inside = lookup<Real>(first.data(), at), outside = lookup<Real>(second.data(), at);
-    Frame<G, Real> frame = load_frame<G, Real>(faces, at);
+    const FacePack<Real> face(&list.face[i]);
+    const Indices<Real> inside = face(list.side == 0 ? faces.left : faces.right);
+    const Indices<Real> outside = face(list.side == 0 ? faces.right : faces.left);
+    Frame<G, Real> frame = load_frame<G, Real>(faces, face);
     const Real outward(list.side == 0 ? 1.0 : -1.0);
     frame.n = outward * frame.n;
     frame.t1 = outward * frame.t1;  // keeps the frame right-handed; only t1's line matters
 
-    const PairSlots<G, K, Real> slots(faces, phase, at);
+    const PairSlots<G, K, Real> slots(faces, phase, face);
     const int own = list.side, other = 1 - own;
     auto l = recall_side<G, K, Real>(phase, slots.sides, own, inside, frame);
     if constexpr (K == Kind::solid && G::dimension == 3) l.tau.z = outward * l.tau.z;  // t2 did not turn with n and t1
 
     const LongitudinalStar<Real> star = free_surface<Real>(l, Real(p0));
     const ContactFlux<G, Real> contact(star, eulerian_flux<G>(star, l, l), frame);
-    const Real weight = gather<Real>(faces.area.data(), at) * load<Real>(&list.share[i]);
+    const Real weight = face(faces.area) * load<Real>(&list.share[i]);
     const Real zero(0.0);
     const Real advancing = select(star.from_left, weight, zero), retreating = select(star.from_left, zero, weight);
     slots.add_gain(own, -(advancing * contact.mass), (-1.0) * (advancing * contact.momentum + retreating * contact.force),

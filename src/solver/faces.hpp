@@ -4,7 +4,7 @@
 #include "math/aligned.hpp"
 #include "math/pack.hpp"
 #include "mesh/mesh.hpp"
-#include "physics/scene_types.hpp"
+#include "physics/face_state.hpp"
 
 namespace cobasis {
 
@@ -28,17 +28,44 @@ struct Segment {
   std::int32_t last = 0;
 };
 
+/// One pack of an ascending list of faces. Mostly they count up by one: then plain loads do. (Where the last pack is
+/// filled up by repetition, its last two are equal.)
+template <class Real>
+struct FacePack {
+  Indices<Real> at;
+  bool consecutive;
+
+  explicit FacePack(const std::int32_t* list)
+      : at(load_indices<Real>(list)),
+        consecutive(at.back() - at.front() == lanes<Real> - 1 && (lanes<Real> == 1 || at.back() != at[lanes<Real> - 2])) {}
+
+  Real operator()(const AlignedVector<double>& values) const {
+    return consecutive ? load<Real>(&values[at[0]]) : gather<Real>(values.data(), at);
+  }
+  Indices<Real> operator()(const AlignedVector<std::int32_t>& values) const {
+    return consecutive ? load_indices<Real>(&values[at[0]]) : lookup<Real>(values.data(), at);
+  }
+  void put(const Real& value, AlignedVector<double>& values) const {
+    if (consecutive) store(value, &values[at[0]]);
+    else scatter(value, values.data(), at);
+  }
+};
+
 template <class G, class Real>
-Frame<G, Real> load_frame(const Faces& faces, const Indices<Real>& at) {
-  const Real nx = gather<Real>(faces.nx.data(), at), ny = gather<Real>(faces.ny.data(), at);
+Frame<G, Real> load_frame(const Faces& faces, const FacePack<Real>& of) {
+  const Real nx = of(faces.nx), ny = of(faces.ny);
   if constexpr (G::dimension == 2) {
     return {{nx, ny, {}}, {-ny, nx, {}}, {{}, {}, Real(1.0)}};
   } else {
-    const Vec3<Real> n{nx, ny, gather<Real>(faces.nz.data(), at)};
-    const Vec3<Real> t1{gather<Real>(faces.tx.data(), at), gather<Real>(faces.ty.data(), at),
-                        gather<Real>(faces.tz.data(), at)};
+    const Vec3<Real> n{nx, ny, of(faces.nz)}, t1{of(faces.tx), of(faces.ty), of(faces.tz)};
     return {n, t1, cross(n, t1)};
   }
+}
+
+/// A face raises its fastest signal; several phases and pairs may speak for it.
+template <class Real>
+void raise_fastest(Faces& faces, const FacePack<Real>& of, const Real& speed) {
+  of.put(faster(speed, of(faces.fastest)), faces.fastest);
 }
 
 }  // namespace cobasis

@@ -18,12 +18,11 @@ template <class G, Kind K>
 struct Layout {
   static constexpr int D = G::dimension;
   static constexpr int n_cobasis = K == Kind::solid ? G::n_cobasis : 0;
-  static constexpr int n_metric = K == Kind::solid ? G::n_metric : 0;
 
   static constexpr int mass = 0, momentum = 1, energy = 1 + D, cobasis = 2 + D;  // conserved
   static constexpr int n_conserved = 2 + D + n_cobasis;
-  static constexpr int rho = 0, u = 1, p = 1 + D, ch2 = 2 + D, E = 3 + D, metric = 4 + D;  // primitive
-  static constexpr int n_primitive = 4 + D + n_metric;
+  static constexpr int rho = 0, u = 1, p = 1 + D, ch2 = 2 + D, E = 3 + D, metric_scale = 4 + D;  // primitive
+  static constexpr int n_primitive = K == Kind::solid ? 5 + D : 4 + D;
 
   /// What a face does to a phase: flux of mass, momentum, energy (left to right), cobasis fluctuations of the left and
   /// of the right cell. In mixed faces also, per side, the gain of mass, momentum, energy, alpha by contacts.
