@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <type_traits>
 #include <utility>
 
@@ -25,48 +24,6 @@ bool through_periodic_image(const Mesh& mesh, std::int32_t face) {
   const Point& delta = mesh.face_delta[face];
   const Point difference = mesh.centroid[mesh.right[face]] - mesh.centroid[mesh.left[face]] - delta;
   return dot(difference, difference) > 1e-18 * dot(delta, delta);
-}
-
-struct Layer {
-  double x;       ///< coordinate
-  double volume;  ///< of the phase
-};
-
-/// The volumes in the order of their coordinates. Cells side by side on a structured mesh differ by round-off only:
-/// they are one layer, or the quantile would jump from row to row.
-std::vector<Layer> layers_of(const std::vector<double>& coordinates, const std::vector<double>& volumes,
-                             const std::vector<std::int64_t>& ids) {
-  std::vector<std::size_t> order(ids.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair(coordinates[a], ids[a]) < std::pair(coordinates[b], ids[b]);
-  });
-  std::vector<Layer> layers;
-  if (order.empty()) return layers;
-  const double same = 1e-9 * (coordinates[order.back()] - coordinates[order.front()]);
-  for (const std::size_t i : order) {
-    if (layers.empty() || coordinates[i] > layers.back().x + same) layers.push_back({coordinates[i], 0});
-    layers.back().volume += volumes[i];
-  }
-  return layers;
-}
-
-/// Coordinate below which the fraction of the volume lies: half of a layer lies below its coordinate, linear between.
-double quantile_of(const std::vector<Layer>& layers, double fraction) {
-  if (layers.empty()) return nowhere;
-  double total = 0;
-  for (const Layer& layer : layers) total += layer.volume;
-  const double target = fraction * total;
-  double below = 0.5 * layers.front().volume;
-  if (target <= below) return layers.front().x;
-  for (std::size_t i = 1; i < layers.size(); ++i) {
-    const double step = 0.5 * (layers[i - 1].volume + layers[i].volume);
-    if (target <= below + step) {
-      return layers[i - 1].x + (target - below) / step * (layers[i].x - layers[i - 1].x);
-    }
-    below += step;
-  }
-  return layers.back().x;
 }
 
 }  // namespace
@@ -145,29 +102,59 @@ double Integrals::evaluate(const Extent& extent, const std::vector<double>& alph
   return farthest == -infinity ? nowhere : farthest;
 }
 
+/// A cell's volume is spread evenly over the cell's range of the coordinate, so that the volume below a coordinate is
+/// continuous and a body's edge is where its outermost cells end. The quantile is found by the Illinois method.
 double Integrals::evaluate(const Quantile& quantile, const std::vector<double>& alpha) const {
-  std::vector<double> coordinates;
+  struct Range {
+    double low, high, volume;
+  };
+  std::vector<Range> ranges;
   std::vector<double> volumes;
-  std::vector<std::int64_t> ids;
+  double low = infinity, high = -infinity;
   for (std::int32_t i = 0; i < mesh_.n_owned; ++i) {
-    if (alpha[i] <= 0) continue;
-    coordinates.push_back(coordinate(mesh_.centroid[i], quantile.axis, geometry_));
-    volumes.push_back(alpha[i] * mesh_.volume[i]);
-    ids.push_back(mesh_.global_id[i]);
+    if (!(alpha[i] > 0)) continue;
+    Range range{infinity, -infinity, alpha[i] * mesh_.volume[i]};
+    for (std::int32_t n = mesh_.cell_node_begin[i]; n < mesh_.cell_node_begin[i + 1]; ++n) {
+      const double x = coordinate(mesh_.nodes[mesh_.cell_nodes[n]], quantile.axis, geometry_);
+      range.low = std::min(range.low, x);
+      range.high = std::max(range.high, x);
+    }
+    low = std::min(low, range.low);
+    high = std::max(high, range.high);
+    ranges.push_back(range);
+    volumes.push_back(range.volume);
   }
-  coordinates = mpi_.gather(std::span<const double>(coordinates));
-  volumes = mpi_.gather(std::span<const double>(volumes));
-  ids = mpi_.gather(std::span<const std::int64_t>(ids));
-  std::vector<char> result;
-  if (mpi_.root()) {
-    const double value = quantile_of(layers_of(coordinates, volumes, ids), quantile.fraction);
-    const char* bytes = reinterpret_cast<const char*>(&value);
-    result.assign(bytes, bytes + sizeof value);
+  low = mpi_.min(low);
+  high = mpi_.max(high);
+  if (!(low <= high)) return nowhere;
+  const double total = mpi_.exact_sum(volumes);
+  const auto excess_below = [&](double x) {
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      const Range& range = ranges[i];
+      volumes[i] = x <= range.low ? 0 : x >= range.high ? range.volume : (x - range.low) / (range.high - range.low) * range.volume;
+    }
+    return mpi_.exact_sum(volumes) / total - quantile.fraction;
+  };
+  double below = -quantile.fraction, above = 1 - quantile.fraction;
+  const double tolerance = 1e-12 * (high - low);
+  int repeated = 0;  // > 0: `high` was replaced last, < 0: `low`
+  for (int i = 0; i < 100 && high - low > tolerance; ++i) {
+    const double x = low - below * (high - low) / (above - below);
+    const double excess = excess_below(x);
+    if (std::abs(excess) < 1e-14) return x;
+    if (excess > 0) {
+      high = x;
+      above = excess;
+      if (repeated > 0) below *= 0.5;
+      repeated = 1;
+    } else {
+      low = x;
+      below = excess;
+      if (repeated < 0) above *= 0.5;
+      repeated = -1;
+    }
   }
-  mpi_.broadcast(result);
-  double value = 0;
-  std::copy(result.begin(), result.end(), reinterpret_cast<char*>(&value));
-  return value;
+  return 0.5 * (low + high);
 }
 
 }  // namespace cobasis

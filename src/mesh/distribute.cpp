@@ -106,7 +106,7 @@ void PartCutter::add_faces(Draft& draft) const {
     const FaceLink& face = whole_.faces[f];
     mesh.left.push_back(local_[face.left]);
     mesh.right.push_back(face.right < 0 ? mesh.ghost_of(i) : local_[face.right]);
-    const Frame frame = face_frame(whole_.face_area[f]);
+    const FaceFrame frame = face_frame(whole_.face_area[f]);
     mesh.area.push_back(length(whole_.face_area[f]));
     mesh.nx.push_back(frame.n.x);
     mesh.ny.push_back(frame.n.y);

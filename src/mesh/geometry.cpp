@@ -77,7 +77,7 @@ CellGeometry cell_geometry(CellType type, std::span<const Point> corners) {
   return sum;
 }
 
-Frame face_frame(const Point& area) {
+FaceFrame face_frame(const Point& area) {
   const Point n = 1.0 / length(area) * area;
   // One formula for all faces of extruded and of axis-aligned meshes: round-off in nz must not swing the tangent.
   if (std::abs(n.z) < 0.9) {

@@ -20,13 +20,13 @@ struct CellGeometry {
 
 /// Unit normal n and first tangent t1 with n·t1 = 0; t1 = (-ny, nx, 0) scaled to 1, or where n is close to the z axis a
 /// vector without x component.
-struct Frame {
+struct FaceFrame {
   Point n, t1;
 };
 
 double length(const Point& a);
 FaceGeometry face_geometry(std::span<const Point> corners);  ///< 2 (in z = 0), 3 or 4 corners
 CellGeometry cell_geometry(CellType type, std::span<const Point> corners);
-Frame face_frame(const Point& area);
+FaceFrame face_frame(const Point& area);
 
 }  // namespace cobasis

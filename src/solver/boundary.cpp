@@ -5,12 +5,13 @@
 #include <algorithm>
 
 #include "math/errors.hpp"
+#include "math/suggestion.hpp"
 
 namespace cobasis {
 
 std::vector<Boundary> resolve_boundaries(const Setup& setup, const Mesh& mesh) {
-  std::string groups;
-  for (const BoundaryGroup& group : mesh.boundary_groups) groups += (groups.empty() ? "" : ", ") + group.name;
+  std::vector<std::string> groups;
+  for (const BoundaryGroup& group : mesh.boundary_groups) groups.push_back(group.name);
   const auto in_mesh = [&](const std::string& name) {
     return std::any_of(mesh.boundary_groups.begin(), mesh.boundary_groups.end(),
                        [&](const BoundaryGroup& group) { return group.name == name; });
@@ -18,8 +19,8 @@ std::vector<Boundary> resolve_boundaries(const Setup& setup, const Mesh& mesh) {
   std::string mistakes;
   for (const BoundarySetup& boundary : setup.boundaries)
     if (boundary.group != "*" && !std::holds_alternative<Periodic>(boundary.boundary) && !in_mesh(boundary.group))
-      mistakes += fmt::format("{}: boundary '{}' is not a physical group of the mesh; its boundary groups are: {}\n",
-                              boundary.where, boundary.group, groups);
+      mistakes += fmt::format("{}: boundary '{}' is not a physical group of the mesh's boundary; {}\n", boundary.where,
+                              boundary.group, allowed_names(boundary.group, groups));
   std::vector<Boundary> result;
   for (const BoundaryGroup& group : mesh.boundary_groups) {
     const BoundarySetup* found = nullptr;

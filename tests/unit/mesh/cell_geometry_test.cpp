@@ -95,7 +95,7 @@ TEST_CASE("centroids of a pyramid and of a trapezoid are those of calculus") {
 
 TEST_CASE("frames are orthonormal and turn over with their normal") {
   for (const Point& area : {Point{1, 2, 3}, Point{0, 0, 2}, Point{0, 0, -2}, Point{-1, 0, 0}, Point{0.1, 0.2, 9}}) {
-    const Frame frame = face_frame(area), back = face_frame(-1.0 * area);
+    const FaceFrame frame = face_frame(area), back = face_frame(-1.0 * area);
     CHECK(dot(frame.n, frame.n) == Approx(1).epsilon(1e-15));
     CHECK(dot(frame.t1, frame.t1) == Approx(1).epsilon(1e-15));
     CHECK(std::abs(dot(frame.n, frame.t1)) < 1e-16);
