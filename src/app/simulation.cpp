@@ -1,9 +1,11 @@
 #include "app/simulation.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <iostream>
 
 #include "app/case.hpp"
@@ -76,17 +78,31 @@ std::string describe(const Scene& scene, const Solver& solver) {
   std::string text = fmt::format("{}\n{} scene, {} cells, {} equations per cell\n", scene.setup.title,
                                  scene.geometry == Geometry::plane ? "plane" : "space", scene.mesh.n_global,
                                  solver.equations());
-  for (const Phase& phase : solver.fields().phases) {
+  for (int k = 0; k < solver.fields().n_phases(); ++k) {
+    const Phase& phase = solver.fields().phases[k];
     if (phase.is_void) {
       text += fmt::format("  {}: void at {:g} Pa, no state of its own\n", phase.name, phase.void_pressure);
       continue;
     }
     const std::size_t numbers = phase.conserved.size() + phase.primitive.size() + (phase.alpha.empty() ? 0 : 1);
-    text += fmt::format("  {}: {}, {} conserved and {} derived numbers, {} bytes per cell\n", phase.name,
-                        phase.kind == Kind::solid ? "solid" : "fluid", phase.conserved.size(),
-                        phase.primitive.size(), numbers * sizeof(double));
+    text += fmt::format("  {}: {}, {} conserved and {} derived numbers, {} bytes per cell, {} per face\n", phase.name,
+                        phase.kind == Kind::solid ? "solid" : "fluid", phase.conserved.size(), phase.primitive.size(),
+                        numbers * sizeof(double), solver.kernels(k).n_flux * sizeof(double));
   }
   return text;
+}
+
+/// Memory that this process holds at present [bytes].
+std::int64_t resident_memory() {
+  std::int64_t pages = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return resident * sysconf(_SC_PAGESIZE);
+}
+
+std::string duration(double seconds) {
+  if (seconds < 120) return fmt::format("{:.3g} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.3g} min", seconds / 60);
+  return fmt::format("{:.3g} h", seconds / 3600);
 }
 
 }  // namespace
@@ -154,8 +170,25 @@ void run_case(const CommandLine& command, const Mpi& mpi) {
 
 void check_case(const CommandLine& command, const Mpi& mpi) {
   const Scene scene = open_scene(command, mpi);
-  const Solver solver(scene.setup, scene.geometry, scene.mesh, mpi);
-  if (mpi.root()) std::cout << describe(scene, solver);
+  Solver solver(scene.setup, scene.geometry, scene.mesh, mpi);
+  solver.advance(scene.setup.end_time);  // the first step also touches memory for the first time
+  const double warm_up = solver.clock().total;
+  double dt = 0;
+  constexpr int steps = 5;
+  for (int i = 0; i < steps && solver.time() < scene.setup.end_time; ++i) dt = solver.advance(scene.setup.end_time);
+  const double per_step = mpi.max(solver.clock().total - warm_up) / steps;
+  const std::int64_t memory = mpi.sum(resident_memory());
+  if (!mpi.root()) return;
+  const double expected_steps = scene.setup.max_steps
+                                    ? std::min(static_cast<double>(*scene.setup.max_steps), scene.setup.end_time / dt)
+                                    : scene.setup.end_time / dt;
+  std::cout << describe(scene, solver)
+            << fmt::format("memory: {:.3g} MB on {} rank{}\n", 1e-6 * static_cast<double>(memory), mpi.size(),
+                           mpi.size() == 1 ? "" : "s")
+            << fmt::format("step: {:.3g} s at first, about {:.0f} steps to {:g} s\n", dt, expected_steps,
+                           scene.setup.end_time)
+            << fmt::format("cost: {:.3g} s per step at first, about {} in all without output\n", per_step,
+                           duration(per_step * expected_steps));
 }
 
 }  // namespace cobasis

@@ -18,6 +18,8 @@ NeighbourExchange::NeighbourExchange(const Mpi& mpi, const std::vector<Neighbour
   for (std::size_t n = 0; n < neighbours.size(); ++n) {
     ranks_.push_back(neighbours[n].rank);
     incoming_[n].resize(max_values[n]);
+    const auto cells = static_cast<std::size_t>(std::max(neighbours[n].receive_count, 1));
+    outgoing_[n].reserve((max_values[n] + cells - 1) / cells * neighbours[n].send.size());
   }
 }
 

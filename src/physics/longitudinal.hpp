@@ -13,6 +13,7 @@ struct LongitudinalStar {
   Real u_f, P_f;         ///< at the face: the star values, or the upwind side's own where the flow is supersonic
   Real r;                ///< stretch rho*/rho of the state at the face
   Real mass_speed;       ///< rho_s (S - u_s) of the upwind side
+  Real fastest;          ///< larger magnitude of the two wave speeds; bounds the step
 };
 
 template <class Real, class FaceL, class FaceR>
@@ -49,7 +50,8 @@ LongitudinalStar<Real> longitudinal(const FaceL& l, const FaceR& r) {
           .u_f = select(supersonic, u_s, u_star),
           .P_f = select(supersonic, P_s, P_star),
           .r = select(supersonic, Real(1.0), (S - u_s) / (S - u_star)),
-          .mass_speed = select(from_left, m_l, m_r)};
+          .mass_speed = select(from_left, m_l, m_r),
+          .fastest = larger(magnitude(S_l), magnitude(S_r))};
 }
 
 /// A material with a void at pressure p0 in front of it (outside its outward normal): acoustic, the void gives no wave.
@@ -66,7 +68,8 @@ LongitudinalStar<Real> free_surface(const FaceL& l, const Real& p0) {
           .u_f = select(supersonic, u, u_star),
           .P_f = select(supersonic, l.P, p0),
           .r = select(supersonic, Real(1.0), c / (c + u_star - u)),
-          .mass_speed = -z};
+          .mass_speed = -z,
+          .fastest = magnitude(u) + c};
 }
 
 /// Flux through a face per unit area, in the face frame. The convected parts are those without pressure.

@@ -131,9 +131,8 @@ COBASIS_KERNEL void sweep_same(Faces& faces, Phase& phase, Segment segment) {
     Face<G, K, Real> r;
     if constexpr (B == Beyond::mirror) r = mirrored(l);
     else r = load_face_state<G, Real>(phase, right, e_r, frame);
-    raise_fastest(faces, face, faster(signal_speed(l), signal_speed(r)));
-
     const LongitudinalStar<Real> star = longitudinal<Real>(l, r);
+    raise_fastest(faces, face, faster(faster(signal_speed(l), signal_speed(r)), star.fastest));
     Flux<G, Real> flux = eulerian_flux<G>(star, l, r);
     Real weight = face(faces.area);
     if constexpr (Mixed) weight = weight * load<Real>(&phase.lists.mixed_share[i]);
@@ -281,6 +280,7 @@ COBASIS_KERNEL void sweep_pair(Faces& faces, Phase& phase_l, Phase& phase_m, con
     const auto m = recall_side<G, Km, Real>(phase_m, slots_m.sides, 1, right, frame);
 
     const LongitudinalStar<Real> star = longitudinal<Real>(l, m);
+    raise_fastest(faces, face, star.fastest);  // in strong tension faster than either side's own signal
     const ContactFlux<G, Real> contact(star, eulerian_flux<G>(star, l, m), frame);
     const Real weight = face(faces.area) * load<Real>(&list.share[i]);
     const Real zero(0.0);
@@ -342,6 +342,7 @@ COBASIS_KERNEL void sweep_free_surface(Faces& faces, Phase& phase, double p0, co
     if constexpr (K == Kind::solid && G::dimension == 3) l.tau.z = outward * l.tau.z;  // t2 did not turn with n and t1
 
     const LongitudinalStar<Real> star = free_surface<Real>(l, Real(p0));
+    raise_fastest(faces, face, star.fastest);
     const ContactFlux<G, Real> contact(star, eulerian_flux<G>(star, l, l), frame);
     const Real weight = face(faces.area) * load<Real>(&list.share[i]);
     const Real zero(0.0);

@@ -50,6 +50,7 @@ class Solver {
   std::int64_t step() const { return step_; }
   const Fields& fields() const { return fields_; }
   const StepClock& clock() const { return clock_; }
+  const PhaseKernels& kernels(int phase) const { return kernels_[phase]; }
   const ExchangeCounters& exchange_counters() const;  ///< of this rank
   /// Sum of the volumes exchanged so far [m^3]. Collective.
   double exchanged_volume() const;

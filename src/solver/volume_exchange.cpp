@@ -54,6 +54,12 @@ VolumeExchange::VolumeExchange(const Mpi& mpi, const Mesh& mesh, const Fields& f
       sent_(mesh.neighbours.size()),
       read_(mesh.neighbours.size()),
       volume_of_cell_(mesh.n_owned, 0.0) {
+  // Room for every cell at once, so that no step allocates; memory that stays untouched costs nothing.
+  const std::size_t cells = mesh.n_owned + 1;
+  for (auto* requests : {&asked_, &received_}) requests->reserve(cells);
+  deposits_.reserve(2 * cells);
+  extractions_.reserve(2 * cells);
+  for (auto* list : {&order_, &given_, &taken_, &touched_}) list->reserve(2 * cells);
   for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
     const Neighbour& neighbour = mesh.neighbours[n];
     std::fill_n(neighbour_of_halo_.begin() + (neighbour.receive_first - mesh.n_owned), neighbour.receive_count,
