@@ -17,8 +17,10 @@ namespace {
 void execute(const cobasis::CommandLine& command, const cobasis::Mpi& mpi) {
   using Command = cobasis::CommandLine::Command;
   switch (command.command) {
-    case Command::run: return cobasis::run_case(command, mpi);
-    case Command::check: return cobasis::check_case(command, mpi);
+    case Command::run:
+      return cobasis::run_case(command, mpi);
+    case Command::check:
+      return cobasis::check_case(command, mpi);
     case Command::info:
       if (mpi.root()) {
         cobasis::MeshRequest request;

@@ -75,9 +75,9 @@ double mass_error(const std::vector<Column>& before, const std::vector<Column>& 
 }
 
 std::string describe(const Scene& scene, const Solver& solver) {
-  std::string text = fmt::format("{}\n{} scene, {} cells, {} equations per cell\n", scene.setup.title,
-                                 scene.geometry == Geometry::plane ? "plane" : "space", scene.mesh.n_global,
-                                 solver.equations());
+  std::string text =
+      fmt::format("{}\n{} scene, {} cells, {} equations per cell\n", scene.setup.title,
+                  scene.geometry == Geometry::plane ? "plane" : "space", scene.mesh.n_global, solver.equations());
   for (int k = 0; k < solver.fields().n_phases(); ++k) {
     const Phase& phase = solver.fields().phases[k];
     if (phase.is_void) {
@@ -124,7 +124,8 @@ void run_case(const CommandLine& command, const Mpi& mpi) {
   Schedule outputs(interval, setup.end_time), rows(setup.end_time / 1000, setup.end_time);
   Progress progress(std::cout, mpi.root() ? progress_style(command.quiet) : ProgressStyle::silent);
   const auto cost = [&] {
-    const double evaluations = static_cast<double>(scene.mesh.n_global) * solver.equations() * static_cast<double>(solver.step());
+    const double evaluations =
+        static_cast<double>(scene.mesh.n_global) * solver.equations() * static_cast<double>(solver.step());
     return evaluations > 0 ? 1e9 * solver.clock().total / evaluations : 0;
   };
   const auto write_due = [&](bool last) {
@@ -151,8 +152,8 @@ void run_case(const CommandLine& command, const Mpi& mpi) {
 
   const double mixed = solver.mixed_share();
   const double error = mass_error(initial, solver.totals());
-  const std::int64_t exchanges = mpi.sum(solver.exchange_counters().exchanges), kept = mpi.sum(solver.exchange_counters().kept),
-                     dust = mpi.sum(solver.exchange_counters().dust);
+  const std::int64_t exchanges = mpi.sum(solver.exchange_counters().exchanges),
+                     kept = mpi.sum(solver.exchange_counters().kept), dust = mpi.sum(solver.exchange_counters().dust);
   const double exchanged_volume = solver.exchanged_volume();
   if (!mpi.root()) return;
   if (!command.quiet) {

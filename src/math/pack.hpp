@@ -18,15 +18,27 @@ namespace cobasis {
 
 using Pack = std::experimental::native_simd<double>;
 
-template <class Real> inline constexpr int lanes = 1;
-template <> inline constexpr int lanes<Pack> = Pack::size();
+template <class Real>
+inline constexpr int lanes = 1;
+template <>
+inline constexpr int lanes<Pack> = Pack::size();
 inline constexpr int pack_width = lanes<Pack>;
 
-template <class Real> struct MaskOf { using type = bool; };
-template <> struct MaskOf<Pack> { using type = Pack::mask_type; };
-template <class Real> using Mask = typename MaskOf<Real>::type;
+template <class Real>
+struct MaskOf {
+  using type = bool;
+};
+template <>
+struct MaskOf<Pack> {
+  using type = Pack::mask_type;
+};
+template <class Real>
+using Mask = typename MaskOf<Real>::type;
 
-template <class Real> Real select(bool mask, Real yes, Real no) { return mask ? yes : no; }
+template <class Real>
+Real select(bool mask, Real yes, Real no) {
+  return mask ? yes : no;
+}
 inline Pack select(const Pack::mask_type& mask, const Pack& yes, Pack no) {
   where(mask, no) = yes;
   return no;
@@ -56,13 +68,15 @@ inline Pack magnitude(const Pack& x) { return std::experimental::abs(x); }
 template <class Real>
 using Indices = std::array<std::int32_t, lanes<Real>>;
 
-template <class Real> Indices<Real> load_indices(const std::int32_t* from) {
+template <class Real>
+Indices<Real> load_indices(const std::int32_t* from) {
   Indices<Real> at;
   std::memcpy(at.data(), from, sizeof at);
   return at;
 }
 /// table[at], lane by lane.
-template <class Real> Indices<Real> lookup(const std::int32_t* table, const Indices<Real>& at) {
+template <class Real>
+Indices<Real> lookup(const std::int32_t* table, const Indices<Real>& at) {
 #if defined(__AVX2__)
   if constexpr (lanes<Real> == 8)
     return std::bit_cast<Indices<Real>>(_mm256_i32gather_epi32(table, std::bit_cast<__m256i>(at), 4));
@@ -72,16 +86,23 @@ template <class Real> Indices<Real> lookup(const std::int32_t* table, const Indi
   return found;
 }
 
-template <class Real> Real load(const double* from) {
-  if constexpr (lanes<Real> == 1) return *from;
-  else return Real(from, std::experimental::element_aligned);
+template <class Real>
+Real load(const double* from) {
+  if constexpr (lanes<Real> == 1)
+    return *from;
+  else
+    return Real(from, std::experimental::element_aligned);
 }
-template <class Real> void store(const Real& value, double* to) {
-  if constexpr (lanes<Real> == 1) *to = value;
-  else value.copy_to(to, std::experimental::element_aligned);
+template <class Real>
+void store(const Real& value, double* to) {
+  if constexpr (lanes<Real> == 1)
+    *to = value;
+  else
+    value.copy_to(to, std::experimental::element_aligned);
 }
 
-template <class Real> Real gather(const double* from, const Indices<Real>& at) {
+template <class Real>
+Real gather(const double* from, const Indices<Real>& at) {
   if constexpr (lanes<Real> == 1) {
     return from[at[0]];
   } else {
@@ -93,7 +114,8 @@ template <class Real> Real gather(const double* from, const Indices<Real>& at) {
   }
 }
 /// Lanes that name the same place must carry the same value.
-template <class Real> void scatter(const Real& value, double* to, const Indices<Real>& at) {
+template <class Real>
+void scatter(const Real& value, double* to, const Indices<Real>& at) {
   if constexpr (lanes<Real> == 1) {
     to[at[0]] = value;
   } else {
@@ -146,7 +168,8 @@ inline unsigned equal_lanes(const Indices<Pack>& a, const Indices<Pack>& b) {
 
 /// Cube root of a positive normal number, without branches: exponent by integer arithmetic, then Halley's iteration,
 /// which triples the digits each time (5 -> 15 -> round-off).
-template <class Real> Real cube_root(const Real& x) {
+template <class Real>
+Real cube_root(const Real& x) {
   std::array<double, lanes<Real>> y;
   store(x, y.data());
   for (double& value : y) {

@@ -18,15 +18,21 @@ Cobasis<G, Real> stretched(const Cobasis<G, Real>& e, const Frame<G, Real>& fram
 template <class G, class Real>
 Cobasis<G, Real> upwind(const Mask<Real>& from_left, const Cobasis<G, Real>& l, const Cobasis<G, Real>& r) {
   const auto pick = [&]<class T>(const T& a, const T& b) {
-    if constexpr (std::is_same_v<T, Zero>) return Zero{};
-    else return select(from_left, a, b);
+    if constexpr (std::is_same_v<T, Zero>)
+      return Zero{};
+    else
+      return select(from_left, a, b);
   };
-  const auto vector = [&](const auto& a, const auto& b) { return Vec3{pick(a.x, b.x), pick(a.y, b.y), pick(a.z, b.z)}; };
+  const auto vector = [&](const auto& a, const auto& b) {
+    return Vec3{pick(a.x, b.x), pick(a.y, b.y), pick(a.z, b.z)};
+  };
   return {vector(l.e1, r.e1), vector(l.e2, r.e2), vector(l.e3, r.e3)};
 }
 
 template <class G, class Real>
-Cobasis<G, Real> operator*(const Real& s, const Cobasis<G, Real>& e) { return {s * e.e1, s * e.e2, s * e.e3}; }
+Cobasis<G, Real> operator*(const Real& s, const Cobasis<G, Real>& e) {
+  return {s * e.e1, s * e.e2, s * e.e3};
+}
 
 /// u (e_f - e_i): transport with the velocity u through the face.
 /// + n (e_i·du): deformation by the difference du = u* - u_i of the face's and the cell's velocity.

@@ -21,12 +21,18 @@ struct StiffenedGas {
   }
 
   template <class Real>
-  Real pressure(const Real& rho, const Real& e_h) const { return (gamma - 1) * rho * e_h - gamma * p_inf; }
+  Real pressure(const Real& rho, const Real& e_h) const {
+    return (gamma - 1) * rho * e_h - gamma * p_inf;
+  }
   template <class Real>
-  Real energy(const Real& rho, const Real& p) const { return (p + gamma * p_inf) / (rho * (gamma - 1)); }  // (7)
+  Real energy(const Real& rho, const Real& p) const {
+    return (p + gamma * p_inf) / (rho * (gamma - 1));
+  }  // (7)
   /// Square of the sound speed of the hydrodynamic part [m^2/s^2].
   template <class Real>
-  Real sound_speed_squared(const Real& rho, const Real& p) const { return gamma * (p + p_inf) / rho; }
+  Real sound_speed_squared(const Real& rho, const Real& p) const {
+    return gamma * (p + p_inf) / rho;
+  }
   /// The pressure must stay above this [Pa].
   double lowest_pressure() const { return -p_inf; }
 };
@@ -41,11 +47,17 @@ struct IdealGas {
   }
 
   template <class Real>
-  Real pressure(const Real& rho, const Real& e_h) const { return (gamma - 1) * rho * e_h; }
+  Real pressure(const Real& rho, const Real& e_h) const {
+    return (gamma - 1) * rho * e_h;
+  }
   template <class Real>
-  Real energy(const Real& rho, const Real& p) const { return p / (rho * (gamma - 1)); }
+  Real energy(const Real& rho, const Real& p) const {
+    return p / (rho * (gamma - 1));
+  }
   template <class Real>
-  Real sound_speed_squared(const Real& rho, const Real& p) const { return gamma * p / rho; }
+  Real sound_speed_squared(const Real& rho, const Real& p) const {
+    return gamma * p / rho;
+  }
   double lowest_pressure() const { return 0; }
 };
 

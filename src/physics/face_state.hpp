@@ -26,8 +26,8 @@ struct FluidFace {
   Real rho;
   Vector<G, Real> u;  ///< (u, v, w) along n, t1, t2
   Real E;
-  Real P;             ///< -sigma_11 [Pa]
-  Real c1;            ///< longitudinal speed [m/s]
+  Real P;   ///< -sigma_11 [Pa]
+  Real c1;  ///< longitudinal speed [m/s]
 };
 template <class G, class Real>
 struct SolidFace {
@@ -41,10 +41,18 @@ struct SolidFace {
   Real cs;                               ///< joint shear speed [m/s]
 };
 
-template <class G, Kind K, class Real> struct FaceOf;
-template <class G, class Real> struct FaceOf<G, Kind::fluid, Real> { using type = FluidFace<G, Real>; };
-template <class G, class Real> struct FaceOf<G, Kind::solid, Real> { using type = SolidFace<G, Real>; };
-template <class G, Kind K, class Real> using Face = typename FaceOf<G, K, Real>::type;
+template <class G, Kind K, class Real>
+struct FaceOf;
+template <class G, class Real>
+struct FaceOf<G, Kind::fluid, Real> {
+  using type = FluidFace<G, Real>;
+};
+template <class G, class Real>
+struct FaceOf<G, Kind::solid, Real> {
+  using type = SolidFace<G, Real>;
+};
+template <class G, Kind K, class Real>
+using Face = typename FaceOf<G, K, Real>::type;
 
 template <class G, class Real>
 FluidFace<G, Real> face_state(const FluidState<G, Real>& s, const Frame<G, Real>& frame) {
@@ -79,10 +87,10 @@ SolidFace<G, Real> face_state(const HyperelasticMaterial& m, const SolidState<G,
   // D1 / rho = d(S11/rho) along da = a at fixed rho
   const Real dj1 = (4.0 * g11 - 2.0 * (g22 + g33)) / 3.0;
   const Real d11 = 4.0 / 3.0 * (g11 * g11) + (g12 * g12 + g13 * g13) / 3.0;  // g_1i dg_1i
-  const Real dj2 = 2.0 * (d11 - 2.0 / 3.0 * (g22 * g22 + g33 * g33) + (g12 * g12 + g13 * g13) / 3.0 -
-                          4.0 / 3.0 * (g23 * g23));
-  const Real D1 = k * (kappa * (dj1 * (g11 - j1 / 3.0) + j1 * (4.0 / 3.0 * g11 - dj1 / 3.0)) +
-                       a * (2.0 * d11 - dj2 / 3.0));
+  const Real dj2 =
+      2.0 * (d11 - 2.0 / 3.0 * (g22 * g22 + g33 * g33) + (g12 * g12 + g13 * g13) / 3.0 - 4.0 / 3.0 * (g23 * g23));
+  const Real D1 =
+      k * (kappa * (dj1 * (g11 - j1 / 3.0) + j1 * (4.0 / 3.0 * g11 - dj1 / 3.0)) + a * (2.0 * d11 - dj2 / 3.0));
   const Real c1_squared = s.ch2 - S11 - D1;
 
   // joint shear speed: largest eigenvalue of the tangential acoustic tensor (mu / rho0) M
@@ -116,12 +124,18 @@ SolidFace<G, Real> mirrored(SolidFace<G, Real> s) {
 
 /// The larger of two speeds; not a number if one of them is not.
 template <class Real>
-Real faster(const Real& a, const Real& b) { return select((a > b) || (a != a), a, b); }
+Real faster(const Real& a, const Real& b) {
+  return select((a > b) || (a != a), a, b);
+}
 
 /// |u_n| + the fastest wave: bounds the step.
 template <class G, class Real>
-Real signal_speed(const FluidFace<G, Real>& s) { return magnitude(s.u.x) + s.c1; }
+Real signal_speed(const FluidFace<G, Real>& s) {
+  return magnitude(s.u.x) + s.c1;
+}
 template <class G, class Real>
-Real signal_speed(const SolidFace<G, Real>& s) { return magnitude(s.u.x) + faster(s.c1, s.cs); }
+Real signal_speed(const SolidFace<G, Real>& s) {
+  return magnitude(s.u.x) + faster(s.c1, s.cs);
+}
 
 }  // namespace cobasis

@@ -17,17 +17,19 @@ struct HyperelasticMaterial {
   double a = 0.5;   ///< parameter of the stored energy [-]; the splitting is hyperbolic for a in [-1, 0.5]
 
   static constexpr std::array<FieldInfo<HyperelasticMaterial>, 3> fields() {
-    return {{{"mu", "Pa", &HyperelasticMaterial::mu, 0, infinity, true, false, "shear modulus"},
-             {"rho0", "kg/m^3", &HyperelasticMaterial::rho0, 0, infinity, false, false,
-              "density of the undeformed solid"},
-             {"a", "-", &HyperelasticMaterial::a, -1, 0.5, true, true, "parameter of the stored energy"}}};
+    return {
+        {{"mu", "Pa", &HyperelasticMaterial::mu, 0, infinity, true, false, "shear modulus"},
+         {"rho0", "kg/m^3", &HyperelasticMaterial::rho0, 0, infinity, false, false, "density of the undeformed solid"},
+         {"a", "-", &HyperelasticMaterial::a, -1, 0.5, true, true, "parameter of the stored energy"}}};
   }
 
   double kappa() const { return (1 - 2 * a) / 3; }
 };
 
 template <class G, class Real>
-Real trace(const Symmetric<G, Real>& g) { return g.xx + g.yy + g.zz; }
+Real trace(const Symmetric<G, Real>& g) {
+  return g.xx + g.yy + g.zz;
+}
 
 /// j2 = tr g^2
 template <class G, class Real>
@@ -37,7 +39,9 @@ Real trace_of_square(const Symmetric<G, Real>& g) {
 
 /// det F^{-T} = det(e^1 e^2 e^3) = rho / rho0
 template <class G, class Real>
-Real determinant(const Cobasis<G, Real>& e) { return dot(cross(e.e1, e.e2), e.e3); }
+Real determinant(const Cobasis<G, Real>& e) {
+  return dot(cross(e.e1, e.e2), e.e3);
+}
 
 /// |G|^{-1/3}, |G| = det(e)^2
 template <class G, class Real>
@@ -58,7 +62,9 @@ Symmetric<G, Real> scaled_metric(const Cobasis<G, Real>& e, const Real& scale) {
 }
 
 template <class G, class Real>
-Symmetric<G, Real> normalised_metric(const Cobasis<G, Real>& e) { return scaled_metric(e, metric_scale(e)); }
+Symmetric<G, Real> normalised_metric(const Cobasis<G, Real>& e) {
+  return scaled_metric(e, metric_scale(e));
+}
 
 /// e^e [J/kg]; zero, with the stress, at g = I.
 template <class G, class Real>

@@ -27,7 +27,8 @@ LongitudinalStar<Real> longitudinal(const FaceL& l, const FaceR& r) {
   Real m_l = l.rho * (S_l - u_l), m_r = r.rho * (S_r - u_r);
   Real u_star = mean + ((r.P - l.P) - (m_l + m_r) * half_jump) / (m_l - m_r);
 
-  // In tension against a soft neighbour Davis' speeds do not enclose the contact: widen them by the side's own traction.
+  // In tension against a soft neighbour Davis' speeds do not enclose the contact: widen them by the side's own
+  // traction.
   const Mask<Real> outside = !((S_l < u_star) && (u_star < S_r));
   if (any(outside)) {
     const Real c_l = square_root(larger(l.c1 * l.c1, 1.2 * (r.P - l.P) / l.rho));

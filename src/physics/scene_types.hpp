@@ -9,21 +9,25 @@ namespace cobasis {
 struct Plane {
   static constexpr int dimension = 2;
   static constexpr int n_cobasis = 5;  ///< e^1_x e^1_y e^2_x e^2_y e^3_z
-  template <class Real> using Third = Zero;
+  template <class Real>
+  using Third = Zero;
 };
 
 struct Space {
   static constexpr int dimension = 3;
   static constexpr int n_cobasis = 9;  ///< e^1_x e^1_y e^1_z e^2_x … e^3_z
-  template <class Real> using Third = Real;
+  template <class Real>
+  using Third = Real;
 };
 
 enum class Kind { fluid, solid };
 
-template <class G, class Real> using Third = typename G::template Third<Real>;
+template <class G, class Real>
+using Third = typename G::template Third<Real>;
 
 /// A vector in the scene's own dimensions.
-template <class G, class Real> using Vector = Vec3<Real, Real, Third<G, Real>>;
+template <class G, class Real>
+using Vector = Vec3<Real, Real, Third<G, Real>>;
 
 /// Symmetric tensor; what shears out of the plane is Zero in a plane scene.
 template <class G, class Real>
@@ -40,7 +44,8 @@ struct Cobasis {
 };
 
 /// Face frame: unit normal and two unit tangents.
-template <class G, class Real> struct Frame;
+template <class G, class Real>
+struct Frame;
 
 template <class Real>
 struct Frame<Plane, Real> {

@@ -6,18 +6,25 @@
 
 namespace cobasis {
 
-/// tau = (0, sigma_12, sigma_13) of the contact [Pa]; w_l, w_r: tangential velocity (0, v, w) left and right of it [m/s].
+/// tau = (0, sigma_12, sigma_13) of the contact [Pa]; w_l, w_r: tangential velocity (0, v, w) left and right of it
+/// [m/s].
 template <class G, class Real>
 struct ShearStar {
   using Tangential = Vec3<Zero, Real, Third<G, Real>>;
   Tangential tau, w_l, w_r;
 };
 
-template <class Real> Real ratio_or_zero(const Real& x, const Real& z) { return select(z > Real(0.0), x / z, Real(0.0)); }
-template <class Real> Zero ratio_or_zero(Zero, const Real&) { return {}; }
+template <class Real>
+Real ratio_or_zero(const Real& x, const Real& z) {
+  return select(z > Real(0.0), x / z, Real(0.0));
+}
+template <class Real>
+Zero ratio_or_zero(Zero, const Real&) {
+  return {};
+}
 
-/// Material on both sides bonded: the same solid, or two solids that adhere (App. C). The larger of the two speeds counts
-/// for both sides. With mu = 0 on both it is a fluid: no stress, and each side keeps its velocity.
+/// Material on both sides bonded: the same solid, or two solids that adhere (App. C). The larger of the two speeds
+/// counts for both sides. With mu = 0 on both it is a fluid: no stress, and each side keeps its velocity.
 template <class G, class Real>
 ShearStar<G, Real> bonded_shear(const SolidFace<G, Real>& l, const SolidFace<G, Real>& r) {
   const Real c = larger(l.cs, r.cs);
@@ -28,8 +35,10 @@ ShearStar<G, Real> bonded_shear(const SolidFace<G, Real>& l, const SolidFace<G, 
   ShearStar<G, Real> star;
   star.tau.y = stress(l.tau.y, r.tau.y, l.u.y, r.u.y);
   star.tau.z = stress(l.tau.z, r.tau.z, l.u.z, r.u.z);
-  star.w_l = {Zero{}, l.u.y - ratio_or_zero(l.tau.y - star.tau.y, z_l), l.u.z - ratio_or_zero(l.tau.z - star.tau.z, z_l)};
-  star.w_r = {Zero{}, r.u.y + ratio_or_zero(r.tau.y - star.tau.y, z_r), r.u.z + ratio_or_zero(r.tau.z - star.tau.z, z_r)};
+  star.w_l = {Zero{}, l.u.y - ratio_or_zero(l.tau.y - star.tau.y, z_l),
+              l.u.z - ratio_or_zero(l.tau.z - star.tau.z, z_l)};
+  star.w_r = {Zero{}, r.u.y + ratio_or_zero(r.tau.y - star.tau.y, z_r),
+              r.u.z + ratio_or_zero(r.tau.z - star.tau.z, z_r)};
   return star;
 }
 

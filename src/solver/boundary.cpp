@@ -29,8 +29,9 @@ std::vector<Boundary> resolve_boundaries(const Setup& setup, const Mesh& mesh) {
     if (found) {
       result.push_back(found->boundary);
     } else {
-      mistakes += fmt::format("{}: the mesh's physical group '{}' has no boundary condition; name it in [boundary] or add \"*\"\n",
-                              setup.case_file, group.name);
+      mistakes += fmt::format(
+          "{}: the mesh's physical group '{}' has no boundary condition; name it in [boundary] or add \"*\"\n",
+          setup.case_file, group.name);
     }
   }
   if (!mistakes.empty()) throw InputError(mistakes.substr(0, mistakes.size() - 1));

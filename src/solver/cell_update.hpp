@@ -1,18 +1,20 @@
-// What faces do to cells: every cell gathers from its faces in its own fixed order, so that the same bits come out for any
-// partition. Also the other direction of the conversion: conserved to primitive, with the one evaluation of EOS and stress.
+// What faces do to cells: every cell gathers from its faces in its own fixed order, so that the same bits come out for
+// any partition. Also the other direction of the conversion: conserved to primitive, with the one evaluation of EOS and
+// stress.
 #pragma once
 
 #include "solver/face_sweep.hpp"
 
 namespace cobasis {
 
-/// Owned cells whose state left the admissible set: rho <= 0, p <= the EOS's lowest pressure, det e <= 0, or not a number.
+/// Owned cells whose state left the admissible set: rho <= 0, p <= the EOS's lowest pressure, det e <= 0, or not a
+/// number.
 using BadCells = std::vector<std::int32_t>;
 
 /// Primitive state of the listed cells. `n` need not be a multiple of the pack width; the list is padded to one.
 template <class G, Kind K, class Real, class EquationOfState>
-COBASIS_KERNEL void primitives(Phase& phase, const EquationOfState& eos, const AlignedVector<std::int32_t>& cells, std::int32_t n,
-                BadCells& bad) {
+COBASIS_KERNEL void primitives(Phase& phase, const EquationOfState& eos, const AlignedVector<std::int32_t>& cells,
+                               std::int32_t n, BadCells& bad) {
   using L = Layout<G, K>;
   for (std::int32_t i = 0; i < n; i += lanes<Real>) {
     const Indices<Real> at = load_indices<Real>(&cells[i]);
@@ -52,8 +54,8 @@ COBASIS_KERNEL void primitives(Phase& phase, const EquationOfState& eos, const A
 
 /// 2 V / sum over faces of A lambda, the smallest over the listed cells [s]; 0 if a wave speed is not a real number.
 template <class Real>
-COBASIS_KERNEL double largest_step(const Faces& faces, const AlignedVector<double>& volume, const AlignedVector<std::int32_t>& cells,
-                    std::int32_t n) {
+COBASIS_KERNEL double largest_step(const Faces& faces, const AlignedVector<double>& volume,
+                                   const AlignedVector<std::int32_t>& cells, std::int32_t n) {
   Real smallest(infinity);
   for (std::int32_t i = 0; i < n; i += lanes<Real>) {
     const Indices<Real> at = load_indices<Real>(&cells[i]);
@@ -64,7 +66,8 @@ COBASIS_KERNEL double largest_step(const Faces& faces, const AlignedVector<doubl
       sum = sum + gather<Real>(faces.area.data(), face) * gather<Real>(faces.fastest.data(), face);
     }
     const Real step = 2.0 * gather<Real>(volume.data(), at) / sum;
-    if (any(step != step)) [[unlikely]] return 0;
+    if (any(step != step)) [[unlikely]]
+      return 0;
     smallest = smaller(smallest, step);
   }
   double result = infinity;
@@ -75,7 +78,7 @@ COBASIS_KERNEL double largest_step(const Faces& faces, const AlignedVector<doubl
 /// Advances a phase in the listed owned cells by dt. Mixed: the volume fraction changes too, and contacts do work.
 template <class G, Kind K, class Real, bool Mixed>
 COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volume, Phase& phase,
-            const AlignedVector<std::int32_t>& cells, std::int32_t n, double dt) {
+                           const AlignedVector<std::int32_t>& cells, std::int32_t n, double dt) {
   using L = Layout<G, K>;
   const std::int32_t first_mixed = first_mixed_slot(faces);
   for (std::int32_t i = 0; i < n; i += lanes<Real>) {
@@ -91,7 +94,8 @@ COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volu
         const std::int32_t slot = phase.lists.slot_of_face[entry[k] >> 1], side = entry[k] & 1;
         flux_at[k] = slot_base(slot, L::n_flux);
         cobasis_at[k] = flux_at[k] + side * L::n_cobasis * pack_width;
-        if constexpr (Mixed) gain_at[k] = slot_base(gain_slot(slot, first_mixed), L::n_gain) + side * L::gain_side * pack_width;
+        if constexpr (Mixed)
+          gain_at[k] = slot_base(gain_slot(slot, first_mixed), L::n_gain) + side * L::gain_side * pack_width;
         sign[k] = side ? 1 : -1;
       }
       const Real direction = load<Real>(sign.data());
@@ -104,8 +108,7 @@ COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volu
       if constexpr (Mixed) {
         const double* gain = phase.gain.data();
         alpha_gain = alpha_gain + gather<Real>(gain + L::gain_alpha * pack_width, gain_at);
-        for (int c = 0; c < L::cobasis; ++c)
-          change[c] = change[c] + gather<Real>(gain + c * pack_width, gain_at);
+        for (int c = 0; c < L::cobasis; ++c) change[c] = change[c] + gather<Real>(gain + c * pack_width, gain_at);
       }
     }
     const Real rate = dt / gather<Real>(volume.data(), at);

@@ -20,9 +20,7 @@ const ExchangeCounters& Solver::exchange_counters() const {
   return exchange_ ? exchange_->counters() : none;
 }
 
-double Solver::exchanged_volume() const {
-  return exchange_ ? mpi_.exact_sum(exchange_->volume_of_cell()) : 0;
-}
+double Solver::exchanged_volume() const { return exchange_ ? mpi_.exact_sum(exchange_->volume_of_cell()) : 0; }
 
 double Solver::mixed_share() const {
   std::int64_t mixed = 0;
@@ -46,8 +44,10 @@ Snapshot Solver::snapshot(Content content) const {
     out.is_void = phase.is_void;
     out.is_solid = !phase.is_void && phase.kind == Kind::solid;
     out.rho0 = phase.material.rho0;
-    if (fields_.multiphase()) out.alpha.assign(phase.alpha.begin(), phase.alpha.begin() + n);
-    else out.alpha.assign(n, 1);
+    if (fields_.multiphase())
+      out.alpha.assign(phase.alpha.begin(), phase.alpha.begin() + n);
+    else
+      out.alpha.assign(n, 1);
     if (phase.is_void || content == Content::alpha) continue;
     for (auto* field : {&out.density, &out.pressure, &out.energy}) field->assign(n, 0);
     for (auto& component : out.velocity) component.assign(n, 0);
@@ -107,14 +107,16 @@ std::vector<Column> Solver::totals() const {
     });
     if (phase.kind == Kind::solid)
       total("elastic." + phase.name, "J", [&](std::int32_t c) {
-        return present(c) ? elastic_energy(phase.material, metric_of(phase, D, c)) * phase.conserved[0][c] * fields_.volume[c] : 0;
+        return present(c)
+                   ? elastic_energy(phase.material, metric_of(phase, D, c)) * phase.conserved[0][c] * fields_.volume[c]
+                   : 0;
       });
   }
   for (const BoundaryGroup& group : mesh_.boundary_groups) {
     const auto outflow = [&](int k, int component, const std::string& name, const std::string& unit) {
       const double* booked = booked_[k][component].data() - mesh_.first_boundary_face();
-      columns.push_back({"outflow." + group.name + "." + name, unit,
-                         mpi_.exact_sum({booked + group.first, booked + group.last})});
+      columns.push_back(
+          {"outflow." + group.name + "." + name, unit, mpi_.exact_sum({booked + group.first, booked + group.last})});
     };
     for (int k = 0; k < fields_.n_phases(); ++k) {
       const std::string& phase = fields_.phases[k].name;

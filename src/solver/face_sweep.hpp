@@ -63,8 +63,10 @@ FluidState<G, Real> load_fluid_state(const Phase& phase, const Indices<Real>& ce
 /// A fluid's state carries no cobasis: Zero stands in its place.
 template <class G, Kind K, class Real>
 auto load_cobasis_of(const Phase& phase, const Indices<Real>& cell) {
-  if constexpr (K == Kind::solid) return load_cobasis<G, Real>(phase, cell);
-  else return Zero{};
+  if constexpr (K == Kind::solid)
+    return load_cobasis<G, Real>(phase, cell);
+  else
+    return Zero{};
 }
 
 template <class G, class Real>
@@ -76,8 +78,8 @@ template <class G, class Real>
 SolidFace<G, Real> load_face_state(const Phase& phase, const Indices<Real>& cell, const Cobasis<G, Real>& e,
                                    const Frame<G, Real>& frame) {
   const Real scale = gather<Real>(phase.primitive[Layout<G, Kind::solid>::metric_scale].data(), cell);
-  return face_state(phase.material, SolidState<G, Real>{load_fluid_state<G, Real>(phase, cell), scaled_metric(e, scale)},
-                    frame);
+  return face_state(phase.material,
+                    SolidState<G, Real>{load_fluid_state<G, Real>(phase, cell), scaled_metric(e, scale)}, frame);
 }
 
 /// The slots of one pack in one buffer: component c of lane i at data[at[i] + c * pack_width].
@@ -101,7 +103,9 @@ SlotPack<Real> slot_pack(RawStorage& buffer, int n, const Indices<Real>& slots) 
 }
 
 /// Mixed slots have their own numbering in the buffers that pure faces do not need.
-inline std::int32_t first_mixed_slot(const Faces& faces) { return pack_width + (faces.n + 4 * pack_width) / pack_width * pack_width; }
+inline std::int32_t first_mixed_slot(const Faces& faces) {
+  return pack_width + (faces.n + 4 * pack_width) / pack_width * pack_width;
+}
 inline std::int32_t gain_slot(std::int32_t slot, std::int32_t first_mixed) {
   return slot < first_mixed ? 0 : slot - first_mixed + pack_width;
 }
@@ -129,8 +133,10 @@ COBASIS_KERNEL void sweep_same(Faces& faces, Phase& phase, Segment segment) {
     const auto e_r = load_cobasis_of<G, K, Real>(phase, B == Beyond::mirror ? left : right);
     const Face<G, K, Real> l = load_face_state<G, Real>(phase, left, e_l, frame);
     Face<G, K, Real> r;
-    if constexpr (B == Beyond::mirror) r = mirrored(l);
-    else r = load_face_state<G, Real>(phase, right, e_r, frame);
+    if constexpr (B == Beyond::mirror)
+      r = mirrored(l);
+    else
+      r = load_face_state<G, Real>(phase, right, e_r, frame);
     const LongitudinalStar<Real> star = longitudinal<Real>(l, r);
     raise_fastest(faces, face, faster(faster(signal_speed(l), signal_speed(r)), star.fastest));
     Flux<G, Real> flux = eulerian_flux<G>(star, l, r);
@@ -144,19 +150,18 @@ COBASIS_KERNEL void sweep_same(Faces& faces, Phase& phase, Segment segment) {
       flux.momentum = flux.momentum - shear.tau;
       flux.energy = flux.energy - dot(shear.tau, shear.w_l);
 
-      const Vector<G, Real> du_l = out_of_frame(
-          frame, Vec3{star.u_f - l.u.x, shear.w_l.y - l.u.y, shear.w_l.z - l.u.z});
+      const Vector<G, Real> du_l =
+          out_of_frame(frame, Vec3{star.u_f - l.u.x, shear.w_l.y - l.u.y, shear.w_l.z - l.u.z});
       const auto keep = [&](int side, const Cobasis<G, Real>& change) {
-        for_each_component(change, [&](int c, const Real& value) {
-          store(value, out + (L::flux_cobasis[side] + c) * pack_width);
-        });
+        for_each_component(
+            change, [&](int c, const Real& value) { store(value, out + (L::flux_cobasis[side] + c) * pack_width); });
       };
       if constexpr (B == Beyond::mirror) {
         keep(0, weight * fluctuation(star.u_f, e_l, e_l, du_l, frame));
       } else {
         const Cobasis<G, Real> e_f = stretched(upwind(star.from_left, e_l, e_r), frame, star.r);
-        const Vector<G, Real> du_r = out_of_frame(
-            frame, Vec3{star.u_f - r.u.x, shear.w_r.y - r.u.y, shear.w_r.z - r.u.z});
+        const Vector<G, Real> du_r =
+            out_of_frame(frame, Vec3{star.u_f - r.u.x, shear.w_r.y - r.u.y, shear.w_r.z - r.u.z});
         keep(0, weight * fluctuation(star.u_f, e_f, e_l, du_l, frame));
         keep(1, (-weight) * fluctuation(star.u_f, e_f, e_r, du_r, frame));
       }
@@ -347,8 +352,9 @@ COBASIS_KERNEL void sweep_free_surface(Faces& faces, Phase& phase, double p0, co
     const Real weight = face(faces.area) * load<Real>(&list.share[i]);
     const Real zero(0.0);
     const Real advancing = select(star.from_left, weight, zero), retreating = select(star.from_left, zero, weight);
-    slots.add_gain(own, -(advancing * contact.mass), (-1.0) * (advancing * contact.momentum + retreating * contact.force),
-                 -(advancing * contact.energy + retreating * contact.work), retreating * star.u_star);
+    slots.add_gain(own, -(advancing * contact.mass),
+                   (-1.0) * (advancing * contact.momentum + retreating * contact.force),
+                   -(advancing * contact.energy + retreating * contact.work), retreating * star.u_star);
     slots.add_gain(other, advancing * contact.mass, advancing * contact.convected_momentum,
                    advancing * contact.convected_energy, advancing * star.u_star);
 

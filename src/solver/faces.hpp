@@ -11,10 +11,10 @@ namespace cobasis {
 struct Faces {
   std::int32_t n = 0;  ///< the mesh's faces, in its order; entry n is the face of nobody
   AlignedVector<std::int32_t> left, right;
-  AlignedVector<double> area;            ///< [m^2], [m] in a plane
-  AlignedVector<double> nx, ny, nz;      ///< unit normal from left to right
-  AlignedVector<double> tx, ty, tz;      ///< first tangent
-  AlignedVector<double> fastest;         ///< lambda_f of the last sweep [m/s]
+  AlignedVector<double> area;        ///< [m^2], [m] in a plane
+  AlignedVector<double> nx, ny, nz;  ///< unit normal from left to right
+  AlignedVector<double> tx, ty, tz;  ///< first tangent
+  AlignedVector<double> fastest;     ///< lambda_f of the last sweep [m/s]
 
   std::int32_t max_cell_faces = 0, cell_stride = 0;
   AlignedVector<std::int32_t> cell_faces;  ///< [j * cell_stride + cell]: 2 face + side; absent: 2 n
@@ -37,7 +37,8 @@ struct FacePack {
 
   explicit FacePack(const std::int32_t* list)
       : at(load_indices<Real>(list)),
-        consecutive(at.back() - at.front() == lanes<Real> - 1 && (lanes<Real> == 1 || at.back() != at[lanes<Real> - 2])) {}
+        consecutive(at.back() - at.front() == lanes<Real> - 1 &&
+                    (lanes<Real> == 1 || at.back() != at[lanes<Real> - 2])) {}
 
   Real operator()(const AlignedVector<double>& values) const {
     return consecutive ? load<Real>(&values[at[0]]) : gather<Real>(values.data(), at);
@@ -46,8 +47,10 @@ struct FacePack {
     return consecutive ? load_indices<Real>(&values[at[0]]) : lookup<Real>(values.data(), at);
   }
   void put(const Real& value, AlignedVector<double>& values) const {
-    if (consecutive) store(value, &values[at[0]]);
-    else scatter(value, values.data(), at);
+    if (consecutive)
+      store(value, &values[at[0]]);
+    else
+      scatter(value, values.data(), at);
   }
 };
 

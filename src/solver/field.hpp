@@ -1,5 +1,5 @@
-// Where the state lives: per phase one aligned array per component over the rank's cells, and the buffers that carry what
-// faces do to cells.
+// Where the state lives: per phase one aligned array per component over the rank's cells, and the buffers that carry
+// what faces do to cells.
 #pragma once
 
 #include <cstdint>

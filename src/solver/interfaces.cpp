@@ -55,7 +55,7 @@ void Interfaces::clear(Fields& fields) {
   std::fill(acting_.begin(), acting_.end(), 0);
 }
 
-COBASIS_KERNEL void Interfaces::sort(const Faces& faces, Fields& fields, Part part) {
+COBASIS_KERNEL void Interfaces::sort(Faces& faces, Fields& fields, Part part) {
   const int p = static_cast<int>(part);
   for (int k = 0; k < n_phases_; ++k) pure_[k][p] = open_segment(fields.phases[k].lists.pure.size());
   part_faces_ = open_segment(mixed_faces_.size());
@@ -71,6 +71,8 @@ COBASIS_KERNEL void Interfaces::sort(const Faces& faces, Fields& fields, Part pa
       const unsigned pure = equal_lanes(left, right) & ~equal_lanes(left, mixed_cell) & valid;
       Indices<Pack> at;
       for (int i = 0; i < pack_width; ++i) at[i] = f + count_up[i];
+      if (valid + 1 == 1u << pack_width) store(Pack(0.0), &faces.fastest[f]);
+      else std::fill(&faces.fastest[f], &faces.fastest[range.last], 0.0);
       store_chosen(valid & ~pure, at, mixed_faces_.end());
       mixed_faces_.grow(std::popcount(valid & ~pure));
       for (int k = 0; k < n_phases_; ++k) {

@@ -25,15 +25,18 @@ class Interfaces {
 
   /// Empties all lists before a step.
   void clear(Fields& fields);
-  /// Sorts the faces of one part into those that are pure in a phase and the others; both cells must be known.
-  void sort(const Faces& faces, Fields& fields, Part part);
+  /// Sorts the faces of one part into those that are pure in a phase and the others; both cells must be known. Resets
+  /// the faces' fastest signals.
+  void sort(Faces& faces, Fields& fields, Part part);
   /// Contact surfaces of the others, (Table 1) for any number of phases.
   void find_contacts(const Faces& faces, Fields& fields, Part part);
 
   Segment pure(int k, Part part) const { return pure_[k][static_cast<int>(part)]; }
   Segment mixed(int k, Part part) const { return mixed_[k][static_cast<int>(part)]; }
   const PairList& pair(int l, int m) const { return pairs_[l * n_phases_ + m]; }
-  Segment pair_segment(int l, int m, Part part) const { return pair_segments_[l * n_phases_ + m][static_cast<int>(part)]; }
+  Segment pair_segment(int l, int m, Part part) const {
+    return pair_segments_[l * n_phases_ + m][static_cast<int>(part)];
+  }
 
   /// Bit k: phase k acts on a cell through a face that is not pure. Of all cells, ghosts included.
   const std::vector<std::uint32_t>& acting() const { return acting_; }
@@ -44,7 +47,7 @@ class Interfaces {
   std::vector<std::array<Segment, n_parts>> pure_, mixed_, pair_segments_;
   std::vector<PairList> pairs_;
   CompactList<std::int32_t> mixed_faces_;
-  Segment part_faces_;                    // of mixed_faces_, in the part last sorted
+  Segment part_faces_;  // of mixed_faces_, in the part last sorted
   std::vector<std::uint32_t> acting_;
   std::vector<Pack> left_, right_, jump_;  // scratch per phase
 };

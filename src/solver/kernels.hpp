@@ -1,5 +1,5 @@
-// The kernels of a scene, picked once at start-up: each is compiled for just what it uses (geometry, kinds of phases), so
-// any number of phases needs no new instantiation.
+// The kernels of a scene, picked once at start-up: each is compiled for just what it uses (geometry, kinds of phases),
+// so any number of phases needs no new instantiation.
 #pragma once
 
 #include "solver/cell_update.hpp"

@@ -33,9 +33,9 @@ struct PhaseSetup {
 
 /// Initial or inflow state of one phase.
 struct PhaseState {
-  std::optional<double> density;                         ///< [kg/m^3]; default: of the cobasis, or the phase's
-  double pressure = 0;                                   ///< p, not -sigma [Pa]
-  std::array<Expression, 3> velocity;                    ///< [m/s]
+  std::optional<double> density;                                ///< [kg/m^3]; default: of the cobasis, or the phase's
+  double pressure = 0;                                          ///< p, not -sigma [Pa]
+  std::array<Expression, 3> velocity;                           ///< [m/s]
   std::optional<std::array<std::array<double, 3>, 3>> cobasis;  ///< rows: x, y, z components of (e^1, e^2, e^3)
 };
 
@@ -46,12 +46,26 @@ struct Filling {
 };
 
 struct Everywhere {};
-struct HalfSpace { Point point, normal; };              ///< the side the normal points to
-struct Box { Point low, high; };
-struct Sphere { Point center; double radius; };         ///< a disc in a plane
-struct Cylinder { Point from, to; double radius; };     ///< finite, axis from -> to (space only)
-struct PhysicalGroup { std::string name; };             ///< cells of a physical group of the mesh
-struct Inside { Expression condition; };                ///< where the condition is true
+struct HalfSpace {
+  Point point, normal;
+};  ///< the side the normal points to
+struct Box {
+  Point low, high;
+};
+struct Sphere {
+  Point center;
+  double radius;
+};  ///< a disc in a plane
+struct Cylinder {
+  Point from, to;
+  double radius;
+};  ///< finite, axis from -> to (space only)
+struct PhysicalGroup {
+  std::string name;
+};  ///< cells of a physical group of the mesh
+struct Inside {
+  Expression condition;
+};  ///< where the condition is true
 using Shape = std::variant<Everywhere, HalfSpace, Box, Sphere, Cylinder, PhysicalGroup, Inside>;
 
 struct RegionSetup {
@@ -63,8 +77,12 @@ struct RegionSetup {
 struct Wall {};          ///< slip wall: mirrored normal velocity and cobasis
 struct Symmetry {};      ///< the same mirror
 struct Transmissive {};  ///< zero gradient
-struct Inflow { Filling filling; };
-struct Periodic { std::string with; };  ///< the partner group
+struct Inflow {
+  Filling filling;
+};
+struct Periodic {
+  std::string with;
+};  ///< the partner group
 using Boundary = std::variant<Wall, Symmetry, Transmissive, Inflow, Periodic>;
 
 struct BoundarySetup {
@@ -74,29 +92,47 @@ struct BoundarySetup {
 };
 
 struct OutputSetup {
-  std::string directory;                        ///< resolved path
-  std::optional<double> every;                  ///< [s]; exactly one of every, count is set
+  std::string directory;        ///< resolved path
+  std::optional<double> every;  ///< [s]; exactly one of every, count is set
   std::optional<int> count;
-  std::vector<std::string> fields;              ///< of: alpha density velocity pressure stress cobasis energy (mixture follows)
+  std::vector<std::string> fields;  ///< of: alpha density velocity pressure stress cobasis energy (mixture follows)
   bool float64 = false;
 };
 
-struct LineSetup { std::string name; Point from, to; int points = 2; };
-struct ProbeSetup { std::string name; Point at; };
+struct LineSetup {
+  std::string name;
+  Point from, to;
+  int points = 2;
+};
+struct ProbeSetup {
+  std::string name;
+  Point at;
+};
 enum class Axis { x, y, z, radial };
-struct Extent { int phase; double alpha; Axis axis; };          ///< farthest coordinate where interpolated alpha reaches the value
-struct Quantile { int phase; double fraction; Axis axis; };     ///< coordinate below which the fraction of the phase's volume lies
-struct IntegralSetup { std::string name; std::variant<Extent, Quantile> what; };
+struct Extent {
+  int phase;
+  double alpha;
+  Axis axis;
+};  ///< farthest coordinate where interpolated alpha reaches the value
+struct Quantile {
+  int phase;
+  double fraction;
+  Axis axis;
+};  ///< coordinate below which the fraction of the phase's volume lies
+struct IntegralSetup {
+  std::string name;
+  std::variant<Extent, Quantile> what;
+};
 
 struct Setup {
   std::string case_file;
   std::string title;
-  std::string mesh_file;                            ///< resolved path
+  std::string mesh_file;  ///< resolved path
   std::map<std::string, double> mesh_parameters;
-  std::optional<Geometry> scene;                    ///< default: space for a mesh with volume cells, else plane
-  double end_time = 0;                              ///< [s]
+  std::optional<Geometry> scene;  ///< default: space for a mesh with volume cells, else plane
+  double end_time = 0;            ///< [s]
   double cfl = 0.8;
-  double alpha_min = 0;                             ///< 0: absent phases are absent; > 0: traces everywhere
+  double alpha_min = 0;  ///< 0: absent phases are absent; > 0: traces everywhere
   std::optional<std::int64_t> max_steps;
   std::vector<PhaseSetup> phases;
   Contact default_contact = Contact::sliding;
@@ -104,7 +140,7 @@ struct Setup {
   std::vector<RegionSetup> regions;                 ///< painted in order
   std::vector<BoundarySetup> boundaries;
   OutputSetup output;
-  std::optional<std::int64_t> history_every;        ///< steps between rows; default one row per 0.1 % of the run
+  std::optional<std::int64_t> history_every;  ///< steps between rows; default one row per 0.1 % of the run
   std::vector<LineSetup> lines;
   std::vector<ProbeSetup> probes;
   std::vector<IntegralSetup> integrals;

@@ -13,14 +13,14 @@ struct PhaseSnapshot {
   std::string name;
   bool is_void = false;
   bool is_solid = false;
-  double rho0 = 0;                   ///< of a solid
+  double rho0 = 0;  ///< of a solid
   std::vector<double> alpha;
-  std::vector<double> density;       ///< [kg/m^3]
-  std::vector<double> velocity[3];   ///< [m/s]
-  std::vector<double> pressure;      ///< [Pa]
-  std::vector<double> stress[6];     ///< sigma = S - p I: xx yy zz xy yz xz [Pa]
-  std::vector<double> cobasis[9];    ///< e^1_x e^1_y e^1_z e^2_x … e^3_z
-  std::vector<double> energy;        ///< total, E [J/kg]
+  std::vector<double> density;         ///< [kg/m^3]
+  std::vector<double> velocity[3];     ///< [m/s]
+  std::vector<double> pressure;        ///< [Pa]
+  std::vector<double> stress[6];       ///< sigma = S - p I: xx yy zz xy yz xz [Pa]
+  std::vector<double> cobasis[9];      ///< e^1_x e^1_y e^1_z e^2_x … e^3_z
+  std::vector<double> energy;          ///< total, E [J/kg]
   std::vector<double> elastic_energy;  ///< e^e [J/kg]
 };
 

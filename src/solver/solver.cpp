@@ -14,9 +14,7 @@ namespace {
 
 constexpr double fragment = 1e-2;  // below this volume fraction an inadmissible state is given to a neighbour
 
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 /// Adds the time until its end to a sum.
 class Timed {
@@ -41,8 +39,8 @@ void fill_pack(CellList& list) {
 double Solver::advance(double until) {
   const double start = seconds();
   const bool multiphase = fields_.multiphase();
-  std::fill(faces_.fastest.begin(), faces_.fastest.end(), 0.0);
   if (multiphase) interfaces_->clear(fields_);
+  else std::fill(faces_.fastest.begin(), faces_.fastest.end(), 0.0);
 
   send_halo();
   sweep(Part::inside);
@@ -99,9 +97,12 @@ void Solver::sweep(Part part) {
       const PairList& list = interfaces_->pair(l, m);
       Phase& left = fields_.phases[l];
       Phase& right = fields_.phases[m];
-      if (right.is_void) kernels_[l].sweep_free_surface(faces_, left, right.void_pressure, list, segment);
-      else if (left.is_void) kernels_[m].sweep_free_surface(faces_, right, left.void_pressure, list, segment);
-      else pair_kernels_[l * n + m](faces_, left, right, list, segment);
+      if (right.is_void)
+        kernels_[l].sweep_free_surface(faces_, left, right.void_pressure, list, segment);
+      else if (left.is_void)
+        kernels_[m].sweep_free_surface(faces_, right, left.void_pressure, list, segment);
+      else
+        pair_kernels_[l * n + m](faces_, left, right, list, segment);
     }
   }
 }

@@ -43,7 +43,8 @@ class Solver {
   /// The mesh must outlive the solver. Throws InputError where case and mesh do not fit. Collective.
   Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mpi& mpi, SolverOptions options = {});
 
-  /// One step, not beyond the time `until` [s], which is hit exactly; returns its length. Collective. Throws Unphysical.
+  /// One step, not beyond the time `until` [s], which is hit exactly; returns its length. Collective. Throws
+  /// Unphysical.
   double advance(double until);
 
   double time() const { return time_; }
@@ -61,8 +62,8 @@ class Solver {
 
   enum class Content { all, alpha };
   Snapshot snapshot(Content content = Content::all) const;
-  /// Conserved totals of the domain and what left it through each boundary: mass, momentum, energy of each phase, and the
-  /// volume of each. Same bits for any number of ranks. Collective.
+  /// Conserved totals of the domain and what left it through each boundary: mass, momentum, energy of each phase, and
+  /// the volume of each. Same bits for any number of ranks. Collective.
   std::vector<Column> totals() const;
 
  private:
@@ -89,16 +90,16 @@ class Solver {
 
   Faces faces_;
   Fields fields_;
-  std::vector<PhaseKernels> kernels_;      // per phase
-  std::vector<PairKernel> pair_kernels_;   // [l * n + m], null with a void
+  std::vector<PhaseKernels> kernels_;     // per phase
+  std::vector<PairKernel> pair_kernels_;  // [l * n + m], null with a void
   std::optional<Interfaces> interfaces_;
   std::optional<VolumeExchange> exchange_;
   std::unique_ptr<NeighbourExchange> halo_;
 
   std::vector<CellList> pure_cells_, mixed_cells_;  // per phase: owned cells to update in the present step
-  CellList material_cells_;                         // owned cells that are not void or have a neighbour that is not, filled to a pack
-  std::size_t material_count_ = 0;                  // of these, without the filling
-  std::vector<std::int32_t> touched_cells_;         // owned cells with a face that is not pure, ascending
+  CellList material_cells_;         // owned cells that are not void or have a neighbour that is not, filled to a pack
+  std::size_t material_count_ = 0;  // of these, without the filling
+  std::vector<std::int32_t> touched_cells_;  // owned cells with a face that is not pure, ascending
   CellList scratch_cells_;
   BadCells bad_;
   std::vector<std::vector<std::vector<double>>> booked_;  // [phase][mass, momentum, energy][boundary face]

@@ -48,7 +48,9 @@ std::vector<double> conserved_state(const PhaseSetup& phase, const PhaseState& s
   if constexpr (G::dimension == 2) {
     e = {{rows[0][0], rows[1][0], {}}, {rows[0][1], rows[1][1], {}}, {{}, {}, rows[2][2]}};
   } else {
-    e = {{rows[0][0], rows[1][0], rows[2][0]}, {rows[0][1], rows[1][1], rows[2][1]}, {rows[0][2], rows[1][2], rows[2][2]}};
+    e = {{rows[0][0], rows[1][0], rows[2][0]},
+         {rows[0][1], rows[1][1], rows[2][1]},
+         {rows[0][2], rows[1][2], rows[2][2]}};
   }
   E += elastic_energy(*phase.elastic, normalised_metric(e));
   q.push_back(rho * E);
@@ -69,7 +71,8 @@ void pick_kernels(const Setup& setup, bool scalar, std::vector<PhaseKernels>& ph
     for (int m = 0; m < n; ++m) {
       if (m == l || setup.phases[m].is_void()) continue;
       const Tangent tangent = setup.contact(l, m) == Contact::adherence ? Tangent::bonded : Tangent::free;
-      pairs[l * n + m] = scalar ? pair_kernel<G, double>(kind(l), kind(m), tangent) : pair_kernel<G, Pack>(kind(l), kind(m), tangent);
+      pairs[l * n + m] =
+          scalar ? pair_kernel<G, double>(kind(l), kind(m), tangent) : pair_kernel<G, Pack>(kind(l), kind(m), tangent);
     }
   }
 }
@@ -83,14 +86,17 @@ Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
   std::vector<FaceRange> inside{{0, mesh_.n_interior_faces}}, mirrors;
   for (std::size_t i = 0; i < boundaries_.size(); ++i) {
     const BoundaryGroup& group = mesh_.boundary_groups[i];
-    const bool mirror = std::holds_alternative<Wall>(boundaries_[i]) || std::holds_alternative<Symmetry>(boundaries_[i]);
+    const bool mirror =
+        std::holds_alternative<Wall>(boundaries_[i]) || std::holds_alternative<Symmetry>(boundaries_[i]);
     (mirror ? mirrors : inside).push_back({group.first, group.last});
     // zero gradient: the cell is its own neighbour; behind a mirror nothing is read
     if (!std::holds_alternative<Inflow>(boundaries_[i]))
       for (std::int32_t face = group.first; face < group.last; ++face) faces_.right[face] = faces_.left[face];
   }
-  if (geometry_ == Geometry::plane) pick_kernels<Plane>(setup_, options_.scalar, kernels_, pair_kernels_);
-  else pick_kernels<Space>(setup_, options_.scalar, kernels_, pair_kernels_);
+  if (geometry_ == Geometry::plane)
+    pick_kernels<Plane>(setup_, options_.scalar, kernels_, pair_kernels_);
+  else
+    pick_kernels<Space>(setup_, options_.scalar, kernels_, pair_kernels_);
   if (setup_.phases.size() > Interfaces::most_phases)
     throw InputError(fmt::format("{}: {} phases; allowed are at most {}", setup_.case_file, setup_.phases.size(),
                                  Interfaces::most_phases));
@@ -119,7 +125,8 @@ void Solver::allocate() {
   fields_.pure.assign(n_all, 0);
   const bool multiphase = setup_.phases.size() > 1;
   const std::size_t list_capacity = faces_.n + n_parts * pack_width;
-  const std::size_t pure_slots = first_mixed_slot(faces_), mixed_slots = multiphase ? list_capacity + 2 * pack_width : 0;
+  const std::size_t pure_slots = first_mixed_slot(faces_),
+                    mixed_slots = multiphase ? list_capacity + 2 * pack_width : 0;
   for (std::size_t k = 0; k < setup_.phases.size(); ++k) {
     const PhaseSetup& from = setup_.phases[k];
     const PhaseKernels& kernels = kernels_[k];
@@ -134,7 +141,8 @@ void Solver::allocate() {
     if (phase.is_void) continue;
     phase.conserved.resize(kernels.n_conserved);
     for (int c = 0; c < kernels.n_conserved; ++c)
-      phase.conserved[c].assign(n_all, c < fields_.first_cobasis() ? 0 : identity_cobasis(fields_.dimension, c - fields_.first_cobasis()));
+      phase.conserved[c].assign(
+          n_all, c < fields_.first_cobasis() ? 0 : identity_cobasis(fields_.dimension, c - fields_.first_cobasis()));
     phase.primitive.assign(kernels.n_primitive, AlignedVector<double>(n_all, 0));
 
     SlotLists& lists = phase.lists;
@@ -162,7 +170,8 @@ void Solver::allocate() {
   material_cells_.reserve(cells);
   scratch_cells_.reserve(cells);
   touched_cells_.reserve(cells);
-  booked_.assign(fields_.n_phases(), std::vector<std::vector<double>>(fields_.dimension + 2, std::vector<double>(mesh_.n_boundary_faces, 0.0)));
+  booked_.assign(fields_.n_phases(), std::vector<std::vector<double>>(
+                                         fields_.dimension + 2, std::vector<double>(mesh_.n_boundary_faces, 0.0)));
 }
 
 void Solver::set_state(int k, std::int32_t cell, double alpha, const PhaseState& state, const Point& x) {
@@ -188,7 +197,8 @@ void Solver::set_initial_state() {
   } catch (const InputError& error) {
     mistake = error.what();
   }
-  if (mpi_.any(!mistake.empty())) throw InputError(mistake.empty() ? "another rank found the initial state wrong" : mistake);
+  if (mpi_.any(!mistake.empty()))
+    throw InputError(mistake.empty() ? "another rank found the initial state wrong" : mistake);
 
   std::vector<CellList> ghosts(n);
   for (std::size_t i = 0; i < boundaries_.size(); ++i) {

@@ -9,11 +9,11 @@
 namespace cobasis {
 namespace {
 
-constexpr double largest_threshold = 1e-3;   // larger values sharpen interfaces, but make staircases of oblique ones
+constexpr double largest_threshold = 1e-3;  // larger values sharpen interfaces, but make staircases of oblique ones
 constexpr double smallest_threshold = 1e-9;
 constexpr double dust_threshold = 1e-11;
-/// A donor keeps a phase that it gives: what is itself small (fragments below 1e-2 may be exchanged by force) may be about
-/// to leave the donor, and must not be given twice.
+/// A donor keeps a phase that it gives: what is itself small (fragments below 1e-2 may be exchanged by force) may be
+/// about to leave the donor, and must not be given twice.
 constexpr double least_to_give = 1e-2;
 
 /// Messages: the position of the asking cell, of the donor, k, j, volume, alpha, dust only, then the content.
@@ -47,8 +47,8 @@ std::size_t most_conserved(const Fields& fields) {
 
 VolumeExchange::VolumeExchange(const Mpi& mpi, const Mesh& mesh, const Fields& fields)
     : alpha_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases()), 11),
-      requests_out_(mpi, mesh.neighbours,
-                    capacities(mesh, fields.n_phases() * (request_head + most_conserved(fields))), 12),
+      requests_out_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases() * (request_head + most_conserved(fields))),
+                    12),
       answers_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases() * (1 + most_conserved(fields))), 13),
       neighbour_of_halo_(mesh.n_halo),
       sent_(mesh.neighbours.size()),
@@ -121,8 +121,7 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
     ++counters_.kept;
     return;
   }
-  asked_.push_back({mesh.global_id[cell], cell, donor, k, j, volume, own, dust_only, -1, 0, Answer::refused,
-                    content_of(fields, k, cell)});
+  asked_.push_back({mesh.global_id[cell], cell, donor, k, j, volume, own, dust_only, -1, 0, Answer::refused, -1});
 }
 
 void VolumeExchange::ask(const Mesh& mesh, const Faces& faces, const Fields& fields, double dt,
@@ -141,7 +140,8 @@ void VolumeExchange::ask(const Mesh& mesh, const Faces& faces, const Fields& fie
     // the threshold follows the speed of the material, so that slow fronts move as exactly as fast ones
     int material = -1;
     for (int k = 0; k < fields.n_phases(); ++k)
-      if (!fields.phases[k].is_void && (material < 0 || fields.phases[k].alpha[cell] > fields.phases[material].alpha[cell]))
+      if (!fields.phases[k].is_void &&
+          (material < 0 || fields.phases[k].alpha[cell] > fields.phases[material].alpha[cell]))
         material = k;
     const Phase& m = fields.phases[material];
     const double mass = m.conserved[0][cell];
@@ -152,13 +152,14 @@ void VolumeExchange::ask(const Mesh& mesh, const Faces& faces, const Fields& fie
       if (fields.dimension == 3) un += m.conserved[3][cell] * faces.nz[face];
       swept += faces.area[face] * std::fabs(un / mass);
     }
-    const double threshold = std::max(
-        smallest_threshold, std::min(largest_threshold, 0.1 * dt * swept / (2 * fields.volume[cell])));
+    const double threshold =
+        std::max(smallest_threshold, std::min(largest_threshold, 0.1 * dt * swept / (2 * fields.volume[cell])));
     for (int k = 0; k < fields.n_phases(); ++k) {
       const double alpha = fields.phases[k].alpha[cell];
       const bool is_forced = next_forced != forced.end() && *next_forced == std::pair(cell, k);
       if (is_forced) ++next_forced;
-      if (may_be_there(fields.phases[k], cell) && (alpha < threshold || is_forced)) request(mesh, faces, fields, cell, k, is_forced);
+      if (may_be_there(fields.phases[k], cell) && (alpha < threshold || is_forced))
+        request(mesh, faces, fields, cell, k, is_forced);
     }
   }
 }
@@ -166,6 +167,7 @@ void VolumeExchange::ask(const Mesh& mesh, const Faces& faces, const Fields& fie
 void VolumeExchange::deliver(const Mesh& mesh, const Fields& fields) {
   for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) requests_out_.outgoing(n).clear();
   received_.clear();
+  contents_.clear();
   std::fill(sent_.begin(), sent_.end(), 0);
   for (std::size_t i = 0; i < asked_.size(); ++i) {
     Request& r = asked_[i];
@@ -179,11 +181,12 @@ void VolumeExchange::deliver(const Mesh& mesh, const Fields& fields) {
     const Neighbour& neighbour = mesh.neighbours[r.neighbour];
     const auto own = std::lower_bound(neighbour.send.begin(), neighbour.send.end(), r.cell) - neighbour.send.begin();
     std::vector<double>& out = requests_out_.outgoing(r.neighbour);
-    for (const double value : {static_cast<double>(own), static_cast<double>(r.donor - neighbour.receive_first),
-                               static_cast<double>(r.k), static_cast<double>(r.j), r.volume, r.alpha,
-                               static_cast<double>(r.dust_only)})
+    for (const double value :
+         {static_cast<double>(own), static_cast<double>(r.donor - neighbour.receive_first), static_cast<double>(r.k),
+          static_cast<double>(r.j), r.volume, r.alpha, static_cast<double>(r.dust_only)})
       out.push_back(value);
-    for (int c = 0; c < fields.phases[r.k].n_conserved(); ++c) out.push_back(r.content[c]);
+    const Content content = content_of(fields, r.k, r.cell);
+    for (int c = 0; c < fields.phases[r.k].n_conserved(); ++c) out.push_back(content[c]);
   }
   requests_out_.start();
   requests_out_.finish();
@@ -199,14 +202,15 @@ void VolumeExchange::deliver(const Mesh& mesh, const Fields& fields) {
       const int size = fields.phases[k].n_conserved();
       std::copy_n(in.begin() + at + request_head, size, content.begin());
       received_.push_back({mesh.global_id[cell], cell, donor, k, j, in[at + 4], in[at + 5], in[at + 6] != 0,
-                           static_cast<int>(n), position, Answer::refused, content});
+                           static_cast<int>(n), position, Answer::refused, static_cast<int>(contents_.size())});
+      contents_.push_back(content);
       at += request_head + size;
     }
   }
 }
 
-/// Decides on what this rank's cells were asked for. A request's content is replaced by what it gets.
-void VolumeExchange::serve(const Fields& fields) {
+/// Decides on what this rank's cells were asked for.
+void VolumeExchange::serve(const Mesh& mesh, const Fields& fields) {
   // smallest first, ties by the asking cell: the same order for any partition
   order_.resize(received_.size());
   std::iota(order_.begin(), order_.end(), 0);
@@ -221,17 +225,22 @@ void VolumeExchange::serve(const Fields& fields) {
     const double available = fields.phases[r.j].alpha[r.donor] * fields.volume[r.donor];
     if (!former || r.donor != former->donor || r.j != former->j) budget = available;
     former = &r;
-    if (!r.dust_only && r.volume <= budget) {
+    const bool local = r.neighbour < 0;
+    const bool granted = !r.dust_only && r.volume <= budget;
+    const bool dust = !granted && (r.dust_only || std::fabs(r.alpha) < dust_threshold);
+    r.answer = granted ? Answer::granted : dust ? Answer::dust : Answer::refused;
+    if (granted || dust)
+      deposits_.push_back({r.donor, r.k, r.from_id, granted ? r.volume : 0,
+                           local ? content_of(fields, r.k, r.cell) : contents_[r.content]});
+    Content given{};
+    if (granted) {
       budget -= r.volume;
-      r.answer = Answer::granted;
       extractions_.push_back({r.donor, r.j, r.volume});
-      deposits_.push_back({r.donor, r.k, r.from_id, r.volume, r.content});
-      r.content = content_of(fields, r.j, r.donor);
-      for (double& value : r.content) value *= r.volume / available;
-    } else if (r.dust_only || std::fabs(r.alpha) < dust_threshold) {
-      r.answer = Answer::dust;
-      deposits_.push_back({r.donor, r.k, r.from_id, 0, r.content});
+      given = content_of(fields, r.j, r.donor);
+      for (double& value : given) value *= r.volume / available;
     }
+    if (local) settle(mesh, r, r.answer, given);
+    else contents_[r.content] = given;
   }
 }
 
@@ -239,19 +248,17 @@ void VolumeExchange::collect_answers(const Mesh& mesh, const Fields& fields) {
   order_.resize(received_.size());
   std::iota(order_.begin(), order_.end(), 0);
   std::sort(order_.begin(), order_.end(), [&](std::int32_t a, std::int32_t b) {
-    return std::tie(received_[a].neighbour, received_[a].position) < std::tie(received_[b].neighbour, received_[b].position);
+    return std::tie(received_[a].neighbour, received_[a].position) <
+           std::tie(received_[b].neighbour, received_[b].position);
   });
   for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) answers_.outgoing(n).clear();
   for (const std::int32_t i : order_) {
     const Request& r = received_[i];
-    if (r.neighbour < 0) {
-      settle(mesh, asked_[r.position], r.answer, r.content);
-      continue;
-    }
+    if (r.neighbour < 0) continue;
     std::vector<double>& out = answers_.outgoing(r.neighbour);
     out.push_back(static_cast<double>(r.answer));
     if (r.answer != Answer::granted) continue;
-    for (int c = 0; c < fields.phases[r.j].n_conserved(); ++c) out.push_back(r.content[c]);
+    for (int c = 0; c < fields.phases[r.j].n_conserved(); ++c) out.push_back(contents_[r.content][c]);
   }
   answers_.start();
   answers_.finish();
@@ -296,7 +303,8 @@ void VolumeExchange::apply(Fields& fields) {
   for (std::size_t i = 0, next = 0; i < extractions_.size(); i = next) {
     const Extraction& x = extractions_[i];
     double volume = 0;
-    for (; next < extractions_.size() && extractions_[next].cell == x.cell && extractions_[next].phase == x.phase; ++next)
+    for (; next < extractions_.size() && extractions_[next].cell == x.cell && extractions_[next].phase == x.phase;
+         ++next)
       volume += extractions_[next].volume;
     Phase& phase = fields.phases[x.phase];
     double& alpha = phase.alpha[x.cell];
@@ -322,8 +330,10 @@ void VolumeExchange::apply(Fields& fields) {
     alpha += deposit.volume / volume;
     for (int c = 0; c < phase.n_conserved(); ++c) {
       double& q = phase.conserved[c][deposit.cell];
-      if (c < fields.first_cobasis()) q += deposit.content[c] / volume;
-      else if (deposit.volume != 0 && after != 0) q = (before * q + deposit.content[c]) / after;
+      if (c < fields.first_cobasis())
+        q += deposit.content[c] / volume;
+      else if (deposit.volume != 0 && after != 0)
+        q = (before * q + deposit.content[c]) / after;
     }
     if (taken_.empty() || taken_.back() != deposit.cell) taken_.push_back(deposit.cell);
   }
@@ -342,7 +352,7 @@ const std::vector<std::int32_t>& VolumeExchange::run(const Mesh& mesh, const Fac
   share_alpha(mesh, fields);
   ask(mesh, faces, fields, dt, candidates, forced);
   deliver(mesh, fields);
-  serve(fields);
+  serve(mesh, fields);
   collect_answers(mesh, fields);
   apply(fields);
   return touched_;

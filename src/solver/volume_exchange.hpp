@@ -17,8 +17,8 @@ namespace cobasis {
 /// What has been exchanged so far on this rank.
 struct ExchangeCounters {
   std::int64_t exchanges = 0;
-  std::int64_t kept = 0;         ///< small volumes that found no partner and stayed, summed over steps
-  std::int64_t dust = 0;         ///< volumes below 1e-11 whose content went to a neighbour without volume
+  std::int64_t kept = 0;  ///< small volumes that found no partner and stayed, summed over steps
+  std::int64_t dust = 0;  ///< volumes below 1e-11 whose content went to a neighbour without volume
 };
 
 /// What a phase has in a cell in total: mass, momentum, energy [kg, kg m/s, J], and volume times cobasis [m^3].
@@ -28,9 +28,9 @@ class VolumeExchange {
  public:
   VolumeExchange(const Mpi& mpi, const Mesh& mesh, const Fields& fields);
 
-  /// After a full step. `candidates`: owned cells, ascending, among them all with several phases. `forced`: (cell, phase)
-  /// fragments to be exchanged whatever their size, ascending. Collective. Returns the owned cells that were touched,
-  /// ascending.
+  /// After a full step. `candidates`: owned cells, ascending, among them all with several phases. `forced`: (cell,
+  /// phase) fragments to be exchanged whatever their size, ascending. Collective. Returns the owned cells that were
+  /// touched, ascending.
   const std::vector<std::int32_t>& run(const Mesh& mesh, const Faces& faces, Fields& fields, double dt,
                                        const std::vector<std::int32_t>& candidates,
                                        const std::vector<std::pair<std::int32_t, int>>& forced);
@@ -50,7 +50,7 @@ class VolumeExchange {
     int neighbour;  // who asks (received) or is asked (sent); -1: this rank itself
     int position;   // among the requests of that neighbour
     Answer answer;
-    Content content;
+    int content;    // received from another rank: where in contents_; else -1
   };
   struct Deposit {
     std::int32_t cell;
@@ -70,7 +70,7 @@ class VolumeExchange {
            const std::vector<std::int32_t>& candidates, const std::vector<std::pair<std::int32_t, int>>& forced);
   void request(const Mesh& mesh, const Faces& faces, const Fields& fields, std::int32_t cell, int k, bool forced);
   void deliver(const Mesh& mesh, const Fields& fields);
-  void serve(const Fields& fields);
+  void serve(const Mesh& mesh, const Fields& fields);
   void collect_answers(const Mesh& mesh, const Fields& fields);
   void settle(const Mesh& mesh, const Request& request, Answer answer, const Content& content);
   void apply(Fields& fields);
@@ -79,6 +79,7 @@ class VolumeExchange {
   NeighbourExchange alpha_, requests_out_, answers_;
   std::vector<std::int32_t> neighbour_of_halo_;
   std::vector<Request> asked_, received_;
+  std::vector<Content> contents_;    // of requests from other ranks: first what comes, then what is given for it
   std::vector<std::int32_t> order_;  // scratch: positions in sorted order
   std::vector<int> sent_;            // requests per neighbour
   std::vector<std::size_t> read_;    // doubles taken from each neighbour's answers

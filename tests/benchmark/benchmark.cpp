@@ -46,14 +46,16 @@ void benchmark(const std::string& name, const std::string& text, int steps) {
   for (int round = 0; round < 5; ++round) {  // in turn: a machine that slows down slows both
     const Cost p = measure(packs, 1, steps), s = measure(numbers, 1, std::max(1, steps / 4));
     pack = {std::min(pack.seconds, p.seconds), std::min(pack.kernels, p.kernels), std::min(pack.sweeps, p.sweeps)};
-    single = {std::min(single.seconds, s.seconds), std::min(single.kernels, s.kernels), std::min(single.sweeps, s.sweeps)};
+    single = {std::min(single.seconds, s.seconds), std::min(single.kernels, s.kernels),
+              std::min(single.sweeps, s.sweeps)};
   }
   const double cells = packs.mesh.n_global, faces = packs.mesh.n_faces();
   const int equations = packs.solver->equations();
   std::cout << fmt::format("{:<34} {:>8} {:>4} {:>6} {:>9.1f} {:>9.2f} {:>9.1f} {:>7.1f} {:>7.1f} {:>6.0f}\n", name,
                            packs.mesh.n_global, equations, bytes_per_cell(packs.solver->fields()),
-                           1e9 * pack.seconds / cells, 1e9 * pack.seconds / cells / equations, 1e9 * pack.sweeps / faces,
-                           single.sweeps / pack.sweeps, single.seconds / pack.seconds, 100 * pack.kernels / pack.seconds);
+                           1e9 * pack.seconds / cells, 1e9 * pack.seconds / cells / equations,
+                           1e9 * pack.sweeps / faces, single.sweeps / pack.sweeps, single.seconds / pack.seconds,
+                           100 * pack.kernels / pack.seconds);
 }
 
 std::string scene(const std::string& mesh, const std::string& phases, const std::string& regions) {
@@ -100,5 +102,6 @@ int main() {
   benchmark("space, hexahedra: solid in gas",
             scene(hexahedra, solid + gas, fill(all, "air", "") + fill(ball, "aluminium", "100, 20, 0")), 20);
   benchmark("space, hexahedra: solid in void",
-            scene(hexahedra, solid + nothing, fill(all, "surroundings", "") + fill(ball, "aluminium", "100, 20, 0")), 20);
+            scene(hexahedra, solid + nothing, fill(all, "surroundings", "") + fill(ball, "aluminium", "100, 20, 0")),
+            20);
 }

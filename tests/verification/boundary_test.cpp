@@ -9,9 +9,11 @@ using namespace cobasis::test;
 
 namespace {
 
-double largest_change(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b, std::size_t component) {
+double largest_change(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b,
+                      std::size_t component) {
   double largest = 0;
-  for (std::size_t cell = 0; cell < a.size(); ++cell) largest = std::max(largest, std::fabs(a[cell][component] - b[cell][component]));
+  for (std::size_t cell = 0; cell < a.size(); ++cell)
+    largest = std::max(largest, std::fabs(a[cell][component] - b[cell][component]));
   return largest;
 }
 
@@ -36,7 +38,8 @@ velocity = [400.0, 0.0]
 left = { type = "inflow", fill = "aluminium", pressure = 1e5, velocity = [400.0, 0.0] }
 right = "transmissive"
 "*" = "symmetry"
-)", ranks());
+)",
+                           ranks());
   scene.run();
   const Solver& solver = *scene.solver;
   const double volume = 400 * 0.5e-3 * 0.2;  // u t times the inlet
@@ -58,8 +61,9 @@ right = "transmissive"
 }
 
 TEST_CASE("a solid stretched along and across its slip walls stays at rest between them") {
-  const std::string mesh = GENERATE(as<std::string>{}, "mesh = \"@box.geo\"\nmesh_parameters = { n = 12, element = 3 }\n",
-                                    "mesh = \"@box_space.geo\"\nmesh_parameters = { n = 6, element = 4 }\n");
+  const std::string mesh =
+      GENERATE(as<std::string>{}, "mesh = \"@box.geo\"\nmesh_parameters = { n = 12, element = 3 }\n",
+               "mesh = \"@box_space.geo\"\nmesh_parameters = { n = 6, element = 4 }\n");
   CAPTURE(mesh);
   Scene scene = make_scene(mesh + R"(end_time = 1
 [phase.copper]
@@ -71,11 +75,12 @@ pressure = 3e9
 phase.copper = { cobasis = [[1.1, 0, 0], [0, 0.95, 0], [0, 0, 0.98]] }
 [boundary]
 "*" = "wall"
-)", ranks());
+)",
+                           ranks());
   const auto before = state_by_global_cell(scene, ranks());
   scene.run(100);
   const auto after = state_by_global_cell(scene, ranks());
-  CHECK(largest_change(before, after, 0) < 1e-9);                // [kg/m^3]
+  CHECK(largest_change(before, after, 0) < 1e-9);                                                         // [kg/m^3]
   for (int i = 1; i <= scene.mesh.dimension; ++i) CHECK(largest_change(before, after, i) < 1e-9 * 8900);  // 1e-9 m/s
 }
 
@@ -92,7 +97,8 @@ pressure = 1e5
 velocity = ["100*x*y", "-30*x"]
 [boundary]
 "*" = "wall"
-)", ranks());
+)",
+                           ranks());
   scene.run(50);
   for (const char* group : {"left", "right", "bottom", "top"}) {
     CHECK(total(*scene.solver, std::string("outflow.") + group + ".mass.copper") == 0);
@@ -115,7 +121,8 @@ velocity = ["100 + 50*sin(2*pi*y)", "70 + 20*sin(2*pi*x)"]
 [boundary]
 left = { type = "periodic", with = "right" }
 bottom = { type = "periodic", with = "top" }
-)case", ranks());
+)case",
+                           ranks());
   CHECK(scene.mesh.boundary_groups.empty());
   const double mass = total(*scene.solver, "mass.gas"), momentum = total(*scene.solver, "momentum.gas.x"),
                energy = total(*scene.solver, "energy.gas");

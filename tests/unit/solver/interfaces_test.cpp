@@ -19,6 +19,7 @@ struct Faced {
       faces.left.push_back(f < n_faces ? 2 * f : 0);
       faces.right.push_back(f < n_faces ? 2 * f + 1 : 0);
     }
+    faces.fastest.assign(faces.left.size(), 0);
     fields.n_owned = fields.n_all = 2 * n_faces;
     fields.pure.assign(fields.n_all, -1);
     fields.phases.resize(n_phases);
