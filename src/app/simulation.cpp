@@ -84,10 +84,10 @@ std::string describe(const Scene& scene, const Solver& solver) {
       text += fmt::format("  {}: void at {:g} Pa, no state of its own\n", phase.name, phase.void_pressure);
       continue;
     }
-    const std::size_t numbers = phase.conserved.size() + phase.primitive.size() + (phase.alpha.empty() ? 0 : 1);
-    text += fmt::format("  {}: {}, {} conserved and {} derived numbers, {} bytes per cell, {} per face\n", phase.name,
-                        phase.kind == Kind::solid ? "solid" : "fluid", phase.conserved.size(), phase.primitive.size(),
-                        numbers * sizeof(double), solver.kernels(k).n_flux * sizeof(double));
+    const std::size_t number = sizeof(double);
+    text += fmt::format("  {}: {}, {} bytes of state per cell, {} per face\n", phase.name,
+                        phase.kind == Kind::solid ? "solid" : "fluid", phase.numbers_per_cell() * number,
+                        solver.kernels(k).n_flux * number);
   }
   return text;
 }

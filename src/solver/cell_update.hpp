@@ -43,7 +43,7 @@ COBASIS_KERNEL void primitives(Phase& phase, const EquationOfState& eos, const A
       for (int j = 0; j < lanes<Real>; ++j)
         if (!lane(good, j) && i + j < n) bad.push_back(at[j]);
     }
-    keep(L::rho, rho);
+    if (!phase.alpha.empty()) keep(L::rho, rho);
     keep(L::u, u.x), keep(L::u + 1, u.y);
     if constexpr (G::dimension == 3) keep(L::u + 2, u.z);
     keep(L::p, p);

@@ -59,7 +59,7 @@ Snapshot Solver::snapshot(Content content) const {
     for (std::int32_t cell = 0; cell < n; ++cell) {
       if (!(out.alpha[cell] > 0)) continue;
       const auto primitive = [&](int c) { return phase.primitive[c][cell]; };
-      const double rho = primitive(0), p = primitive(1 + D);
+      const double rho = phase.density()[cell], p = primitive(1 + D);
       out.density[cell] = rho;
       out.pressure[cell] = p;
       out.energy[cell] = primitive(3 + D);

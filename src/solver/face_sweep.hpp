@@ -56,7 +56,7 @@ template <class G, class Real>
 FluidState<G, Real> load_fluid_state(const Phase& phase, const Indices<Real>& cell) {
   using L = Layout<G, Kind::fluid>;
   const auto component = [&](int c) { return gather<Real>(phase.primitive[c].data(), cell); };
-  return {component(L::rho), load_vector<G, Real>(phase.primitive, L::u, cell), component(L::p), component(L::ch2),
+  return {gather<Real>(phase.density().data(), cell), load_vector<G, Real>(phase.primitive, L::u, cell), component(L::p), component(L::ch2),
           component(L::E)};
 }
 
@@ -201,7 +201,7 @@ Face<G, K, Real> recall_side(const Phase& phase, const SlotPack<Real>& sides, in
   using L = Layout<G, K>;
   const int c = side * L::n_side;
   Face<G, K, Real> s;
-  s.rho = gather<Real>(phase.primitive[L::rho].data(), cell);
+  s.rho = gather<Real>(phase.density().data(), cell);
   s.u = into_frame(frame, load_vector<G, Real>(phase.primitive, L::u, cell));
   s.E = gather<Real>(phase.primitive[L::E].data(), cell);
   s.P = sides.read(c);

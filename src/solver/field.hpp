@@ -64,6 +64,12 @@ struct Phase {
   RawStorage gain;   ///< n_gain per mixed slot
   RawStorage sides;  ///< n_side for the left and n_side for the right, per mixed slot
 
+  /// [kg/m^3]; alone in its scene, a phase has no other mass per volume than this.
+  const AlignedVector<double>& density() const { return alpha.empty() ? conserved[0] : primitive[0]; }
+
+  int numbers_per_cell() const {
+    return static_cast<int>(conserved.size() + primitive.size()) + (alpha.empty() ? -1 : 1);
+  }
   int n_conserved() const { return static_cast<int>(conserved.size()); }
 };
 

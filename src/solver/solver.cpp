@@ -276,7 +276,7 @@ void Solver::note_unphysical(int k, std::int32_t cell) {
   unphysical_ = fmt::format(
       "step {}, time {:.9g} s: phase '{}' left its admissible states in cell {} at ({:.6g}, {:.6g}, {:.6g}): volume "
       "fraction {:.6g}, density {:.6g} kg/m^3, pressure {:.6g} Pa",
-      step_, time_, phase.name, unphysical_id_, x.x, x.y, x.z, alpha, phase.primitive[0][cell],
+      step_, time_, phase.name, unphysical_id_, x.x, x.y, x.z, alpha, phase.density()[cell],
       phase.primitive[1 + fields_.dimension][cell]);
   if (phase.kind == Kind::solid) {
     std::string e;

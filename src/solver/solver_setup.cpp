@@ -144,6 +144,7 @@ void Solver::allocate() {
       phase.conserved[c].assign(
           n_all, c < fields_.first_cobasis() ? 0 : identity_cobasis(fields_.dimension, c - fields_.first_cobasis()));
     phase.primitive.assign(kernels.n_primitive, AlignedVector<double>(n_all, 0));
+    if (!multiphase) phase.primitive[0] = {};  // see Phase::density
 
     SlotLists& lists = phase.lists;
     lists.pure = CompactList<std::int32_t>(list_capacity);

@@ -32,7 +32,7 @@ Cost measure(Scene& scene, int rounds, int steps) {
 std::size_t bytes_per_cell(const Fields& fields) {
   std::size_t numbers = 0;
   for (const Phase& phase : fields.phases)
-    if (!phase.is_void) numbers += phase.conserved.size() + phase.primitive.size() + (phase.alpha.empty() ? 0 : 1);
+    if (!phase.is_void) numbers += phase.numbers_per_cell();
   return numbers * sizeof(double);
 }
 

@@ -86,8 +86,8 @@ TEST_CASE("a case on a coarse mesh gives the numbers it gave", "[golden]") {
   for (Number& number : numbers) {
     if (number.name != name) continue;
     if (!has_run) {
-      const Outcome outcome =
-          shell(program_with("run " + quoted(case_file(name)) + " --quiet --output out --set " + number.settings), folder);
+      const Outcome outcome = shell(
+          program_with("run " + quoted(case_file(name)) + " --quiet --output out --set " + number.settings), folder);
       INFO(outcome.err);
       REQUIRE(outcome.status == 0);
       has_run = true;
