@@ -13,6 +13,7 @@
 #include "app/progress.hpp"
 #include "math/errors.hpp"
 #include "mesh/read_mesh.hpp"
+#include "solver/initial_condition.hpp"
 #include "solver/solver.hpp"
 
 namespace cobasis {
@@ -33,6 +34,7 @@ Scene open_scene(const CommandLine& command, const Mpi& mpi) {
   request.trust_geo = command.trust_geo;
   request.dimension = !setup.scene ? 0 : *setup.scene == Geometry::plane ? 2 : 3;
   request.periodic = periodic_pairs(setup);
+  request.cell_weight = [&setup](const Point& x, const std::string& region) { return cell_cost(setup, x, region); };
   scene.mesh = read_mesh(request, mpi);
   scene.geometry = scene.mesh.dimension == 2 ? Geometry::plane : Geometry::space;
   check_for_geometry(setup, scene.geometry);

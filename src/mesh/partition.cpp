@@ -43,8 +43,13 @@ std::vector<int> partition(const GlobalMesh& mesh, int n_parts, const MeshReques
   }
   std::vector<idx_t> begin, neighbours, weights;
   dual_graph(mesh, begin, neighbours);
-  if (request.cell_weight)
-    for (const Point& x : mesh.centroid) weights.push_back(std::max(1, request.cell_weight(x)));
+  if (request.cell_weight) {
+    for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell) {
+      const std::int32_t region = mesh.raw.cell_region[cell];
+      const std::string group = region < 0 ? "" : mesh.raw.region_names[region];
+      weights.push_back(std::max(1, request.cell_weight(mesh.centroid[cell], group)));
+    }
+  }
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;

@@ -18,7 +18,8 @@ struct MeshRequest {
   bool trust_geo = false;                                     ///< let a .geo run commands and read other files
   int dimension = 0;                                          ///< 2, 3, or 0: 3 if the mesh has volume cells, else 2
   std::vector<std::pair<std::string, std::string>> periodic;  ///< pairs of boundary groups, matched by translation
-  std::function<int(const Point& centroid)> cell_weight;  ///< cost of a cell for the partition, >= 1; empty: all alike
+  /// Cost of a cell for the partition, >= 1, by its centroid and physical group ("": none). Empty: all alike.
+  std::function<int(const Point& centroid, const std::string& region)> cell_weight;
   std::function<int(std::int64_t global_cell, int n_parts)> partition;  ///< empty: METIS; tests pass random ones
 };
 

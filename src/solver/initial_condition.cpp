@@ -32,6 +32,29 @@ void check_groups(const std::vector<RegionSetup>& regions, const Mesh& mesh) {
                   covered > 0 ? "regions" : "any region"));
 }
 
+bool contains(const Shape& shape, const Point& x, const std::string& group) {
+  struct Visitor {
+    const Point& x;
+    const std::string& group;
+    bool operator()(const Everywhere&) const { return true; }
+    bool operator()(const HalfSpace& s) const { return dot(s.normal, x - s.point) > 0; }
+    bool operator()(const Box& s) const {
+      return s.low.x <= x.x && x.x <= s.high.x && s.low.y <= x.y && x.y <= s.high.y && s.low.z <= x.z &&
+             x.z <= s.high.z;
+    }
+    bool operator()(const Sphere& s) const { return dot(x - s.center, x - s.center) < s.radius * s.radius; }
+    bool operator()(const Cylinder& s) const {
+      const Point axis = s.to - s.from, to_x = x - s.from;
+      const double along = dot(axis, to_x) / dot(axis, axis);
+      const Point across = to_x - along * axis;
+      return 0 <= along && along <= 1 && dot(across, across) < s.radius * s.radius;
+    }
+    bool operator()(const PhysicalGroup& s) const { return s.name == group; }
+    bool operator()(const Inside& s) const { return s.condition(x) != 0; }
+  };
+  return std::visit(Visitor{x, group}, shape);
+}
+
 }  // namespace
 
 InitialState paint(const std::vector<RegionSetup>& regions, int n_phases, const Mesh& mesh) {
@@ -65,6 +88,18 @@ InitialState paint(const std::vector<RegionSetup>& regions, int n_phases, const 
     }
   }
   return state;
+}
+
+int cell_cost(const Setup& setup, const Point& centroid, const std::string& group) {
+  constexpr int fluid = 8, solid = 16;  // in units of a cell of void
+  int cost = 1;
+  for (const RegionSetup& region : setup.regions) {
+    if (!contains(region.shape, centroid, group)) continue;
+    cost = 1;
+    for (std::size_t k = 0; k < setup.phases.size(); ++k)
+      if (region.filling.alpha[k] > 0 && !setup.phases[k].is_void()) cost += setup.phases[k].is_solid() ? solid : fluid;
+  }
+  return cost;
 }
 
 }  // namespace cobasis

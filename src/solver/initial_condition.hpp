@@ -21,4 +21,8 @@ struct InitialState {
 /// no cells of a physical group that a region names (naming the groups it has). A rank speaks for its own cells alone.
 InitialState paint(const std::vector<RegionSetup>& regions, int n_phases, const Mesh& mesh);
 
+/// Relative cost of a cell for the partition, from what fills it at first: voids cost next to nothing.
+/// \param group physical group of the cell, "": none
+int cell_cost(const Setup& setup, const Point& centroid, const std::string& group);
+
 }  // namespace cobasis

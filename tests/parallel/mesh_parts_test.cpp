@@ -198,10 +198,10 @@ TEST_CASE("METIS shares the cells out evenly and by weight") {
   Mesh mesh = read_mesh(request, mpi());
   CHECK(mesh.n_owned > 900 / mpi().size() * 0.9);
   CHECK(mesh.n_owned < 900 / mpi().size() * 1.1);
-  request.cell_weight = [](const Point& x) { return x.x < 0.5 ? 9 : 1; };
+  request.cell_weight = [](const Point& x, const std::string&) { return x.x < 0.5 ? 9 : 1; };
   mesh = read_mesh(request, mpi());
   std::int64_t load = 0;
-  for (std::int32_t i = 0; i < mesh.n_owned; ++i) load += request.cell_weight(mesh.centroid[i]);
+  for (std::int32_t i = 0; i < mesh.n_owned; ++i) load += request.cell_weight(mesh.centroid[i], "");
   CHECK(load > 4500 / mpi().size() * 0.9);
   CHECK(load < 4500 / mpi().size() * 1.1);
 }

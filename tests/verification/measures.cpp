@@ -27,16 +27,13 @@ Table read_table(const std::string& name) {
   if (!file) throw std::runtime_error("cannot read reference/" + name);
   Table table;
   std::string line, entry;
+  std::getline(file, line);
+  for (std::istringstream entries(line); std::getline(entries, entry, ',');) table.names.push_back(entry);
   while (std::getline(file, line)) {
-    std::istringstream entries(line);
     std::vector<double> row;
-    while (std::getline(entries, entry, ',')) {
-      if (table.rows.empty() && !std::isdigit(static_cast<unsigned char>(entry[0])))
-        table.names.push_back(entry);
-      else
-        row.push_back(std::stod(entry));
-    }
-    if (!row.empty()) table.rows.push_back(row);
+    for (std::istringstream entries(line); std::getline(entries, entry, ',');) row.push_back(std::stod(entry));
+    if (row.size() != table.names.size()) throw std::runtime_error("reference/" + name + ": a row of another length");
+    table.rows.push_back(row);
   }
   return table;
 }

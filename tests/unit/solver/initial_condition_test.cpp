@@ -104,3 +104,23 @@ TEST_CASE("an unknown physical group is refused, naming the mesh's own") {
   mesh.region_names.clear();
   CHECK_THROWS_WITH(paint(regions, 1, mesh), Contains("names none"));
 }
+
+TEST_CASE("for the partition a cell of void costs next to nothing, and a solid more than a fluid") {
+  Setup setup;
+  setup.phases.resize(3);
+  setup.phases[0].elastic = HyperelasticMaterial{};
+  setup.phases[2].void_pressure = 1e5;
+  const auto fill = [&](Shape shape, std::vector<double> alpha) {
+    setup.regions.push_back({std::move(shape), {std::move(alpha), std::vector<PhaseState>(3)}, ""});
+  };
+  fill(Everywhere{}, {0, 0, 1});
+  fill(PhysicalGroup{"jelly"}, {1, 0, 0});
+  fill(Sphere{{5, 0, 0}, 1}, {0, 1, 0});
+  fill(HalfSpace{{0, 10, 0}, {0, 1, 0}}, {0.5, 0.5, 0});
+  const int nothing = cell_cost(setup, {0, 0, 0}, ""), solid = cell_cost(setup, {0, 0, 0}, "jelly"),
+            fluid = cell_cost(setup, {5.5, 0, 0}, "jelly"), both = cell_cost(setup, {0, 11, 0}, "");
+  CHECK(nothing == 1);
+  CHECK(fluid > 4 * nothing);
+  CHECK(solid > fluid);
+  CHECK(both > solid);
+}
