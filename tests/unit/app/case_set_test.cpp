@@ -19,7 +19,7 @@ std::string mistakes_of_set(const std::string& text, const std::string& key, con
 
 }  // namespace
 
-TEST_CASE("--set changes and creates keys") {
+TEST_CASE("key by key, --set changes and creates") {
   CHECK(set(rest, "end_time", "2").end_time == 2);
   CHECK(set(rest, "cfl", "0.25").cfl == 0.25);
   CHECK(set(rest, "mesh_parameters.n", "500").mesh_parameters.at("n") == 500);
@@ -30,7 +30,7 @@ TEST_CASE("--set changes and creates keys") {
   CHECK(std::get<IdealGas>(set(rest, "phase.air.eos.gamma", "1.3").phases[0].eos).gamma == 1.3);
 }
 
-TEST_CASE("--set reaches into inline tables and arrays") {
+TEST_CASE("dotted keys of --set reach into inline tables and arrays") {
   const std::string inline_table = "mesh_parameters = { n = 2000, m = 3 }\n" + rest;
   const Setup setup = set(inline_table, "mesh_parameters.n", "500");
   CHECK(setup.mesh_parameters == std::map<std::string, double>{{"n", 500}, {"m", 3}});
