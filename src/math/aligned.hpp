@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <span>
 #include <vector>
 
 namespace cobasis {
@@ -60,7 +61,9 @@ class CompactList {
   T& operator[](std::int32_t i) { return data()[i]; }
   const T& operator[](std::int32_t i) const { return data()[i]; }
   T* end() { return data() + size_; }
+  std::span<const T> span() const { return {data(), static_cast<std::size_t>(size_)}; }
   void clear() { size_ = 0; }
+  void cut(std::int32_t n) { size_ = n; }  ///< keeps the first n
   void push(const T& value) { data()[size_++] = value; }
   void grow(std::int32_t n) { size_ += n; }  ///< by what was written at end()
   /// Repeats the last entry up to a multiple of `width`.

@@ -13,8 +13,8 @@ using BadCells = std::vector<std::int32_t>;
 
 /// Primitive state of the listed cells. `n` need not be a multiple of the pack width; the list is padded to one.
 template <class G, Kind K, class Real, class EquationOfState>
-COBASIS_KERNEL void primitives(Phase& phase, const EquationOfState& eos, const AlignedVector<std::int32_t>& cells,
-                               std::int32_t n, BadCells& bad) {
+COBASIS_KERNEL void primitives(Phase& phase, const EquationOfState& eos, const CellList& cells, std::int32_t n,
+                               BadCells& bad) {
   using L = Layout<G, K>;
   for (std::int32_t i = 0; i < n; i += lanes<Real>) {
     const Indices<Real> at = load_indices<Real>(&cells[i]);
@@ -54,8 +54,8 @@ COBASIS_KERNEL void primitives(Phase& phase, const EquationOfState& eos, const A
 
 /// 2 V / sum over faces of A lambda, the smallest over the listed cells [s]; 0 if a wave speed is not a real number.
 template <class Real>
-COBASIS_KERNEL double largest_step(const Faces& faces, const AlignedVector<double>& volume,
-                                   const AlignedVector<std::int32_t>& cells, std::int32_t n) {
+COBASIS_KERNEL double largest_step(const Faces& faces, const AlignedVector<double>& volume, const CellList& cells,
+                                   std::int32_t n) {
   Real smallest(infinity);
   for (std::int32_t i = 0; i < n; i += lanes<Real>) {
     const Indices<Real> at = load_indices<Real>(&cells[i]);
@@ -77,8 +77,8 @@ COBASIS_KERNEL double largest_step(const Faces& faces, const AlignedVector<doubl
 
 /// Advances a phase in the listed owned cells by dt. Mixed: the volume fraction changes too, and contacts do work.
 template <class G, Kind K, class Real, bool Mixed>
-COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volume, Phase& phase,
-                           const AlignedVector<std::int32_t>& cells, std::int32_t n, double dt) {
+COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volume, Phase& phase, const CellList& cells,
+                           std::int32_t n, double dt) {
   using L = Layout<G, K>;
   const std::int32_t first_mixed = first_mixed_slot(faces);
   for (std::int32_t i = 0; i < n; i += lanes<Real>) {

@@ -56,8 +56,8 @@ template <class G, class Real>
 FluidState<G, Real> load_fluid_state(const Phase& phase, const Indices<Real>& cell) {
   using L = Layout<G, Kind::fluid>;
   const auto component = [&](int c) { return gather<Real>(phase.primitive[c].data(), cell); };
-  return {gather<Real>(phase.density().data(), cell), load_vector<G, Real>(phase.primitive, L::u, cell), component(L::p), component(L::ch2),
-          component(L::E)};
+  return {gather<Real>(phase.density().data(), cell), load_vector<G, Real>(phase.primitive, L::u, cell),
+          component(L::p), component(L::ch2), component(L::E)};
 }
 
 /// A fluid's state carries no cobasis: Zero stands in its place.

@@ -73,6 +73,9 @@ struct Phase {
   int n_conserved() const { return static_cast<int>(conserved.size()); }
 };
 
+/// Cells to do something with; `fill` makes the last pack whole.
+using CellList = CompactList<std::int32_t>;
+
 /// Component c of the cobasis of an undeformed solid, in the numbering of Layout.
 inline double identity_cobasis(int dimension, int c) {
   return dimension == 2 ? (c == 0 || c == 3 || c == 4) : (c == 0 || c == 4 || c == 8);
@@ -93,6 +96,8 @@ struct Fields {
   /// Makes the sum of the volume fractions of a cell exactly one: the void takes what the others leave, or else the
   /// largest phase does. Sets `pure`.
   void complete(std::int32_t cell);
+  /// The same for the first n of a list.
+  void complete(const CellList& cells, std::int32_t n);
 };
 
 }  // namespace cobasis

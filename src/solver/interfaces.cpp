@@ -24,7 +24,7 @@ Interfaces::Interfaces(const Faces& faces, const Fields& fields, std::vector<Fac
       pair_segments_(n_phases_ * n_phases_),
       pairs_(n_phases_ * n_phases_),
       mixed_faces_(faces.n + n_parts * pack_width),
-      acting_(fields.multiphase() ? fields.n_all : 0),
+      acting_(fields.multiphase() ? fields.n_all + pack_width : 0),
       left_(n_phases_),
       right_(n_phases_),
       jump_(n_phases_) {
@@ -71,8 +71,10 @@ COBASIS_KERNEL void Interfaces::sort(Faces& faces, Fields& fields, Part part) {
       const unsigned pure = equal_lanes(left, right) & ~equal_lanes(left, mixed_cell) & valid;
       Indices<Pack> at;
       for (int i = 0; i < pack_width; ++i) at[i] = f + count_up[i];
-      if (valid + 1 == 1u << pack_width) store(Pack(0.0), &faces.fastest[f]);
-      else std::fill(&faces.fastest[f], &faces.fastest[range.last], 0.0);
+      if (valid + 1 == 1u << pack_width)
+        store(Pack(0.0), &faces.fastest[f]);
+      else
+        std::fill(&faces.fastest[f], &faces.fastest[range.last], 0.0);
       store_chosen(valid & ~pure, at, mixed_faces_.end());
       mixed_faces_.grow(std::popcount(valid & ~pure));
       for (int k = 0; k < n_phases_; ++k) {
@@ -137,8 +139,8 @@ COBASIS_KERNEL void Interfaces::find_contacts(const Faces& faces, Fields& fields
       for (unsigned bits = present; bits != 0; bits &= bits - 1) {
         const int j = std::countr_zero(bits);
         lists.slot_of_face[at[j]] = slot++;
-        acting_[l[j]] |= 1u << k;
-        acting_[r[j]] |= 1u << k;
+        acting_[l[j]] |= 1 << k;
+        acting_[r[j]] |= 1 << k;
       }
       lists.mixed.grow(std::popcount(present));
       lists.mixed_share.grow(std::popcount(present));

@@ -18,7 +18,7 @@ struct FaceRange {
 
 class Interfaces {
  public:
-  static constexpr int most_phases = 32;  ///< one bit each
+  static constexpr int most_phases = 31;  ///< one bit each
 
   Interfaces(const Faces& faces, const Fields& fields, std::vector<FaceRange> inside, std::vector<FaceRange> mirror,
              std::vector<FaceRange> halo);
@@ -39,7 +39,7 @@ class Interfaces {
   }
 
   /// Bit k: phase k acts on a cell through a face that is not pure. Of all cells, ghosts included.
-  const std::vector<std::uint32_t>& acting() const { return acting_; }
+  const AlignedVector<std::int32_t>& acting() const { return acting_; }
 
  private:
   int n_phases_;
@@ -48,7 +48,7 @@ class Interfaces {
   std::vector<PairList> pairs_;
   CompactList<std::int32_t> mixed_faces_;
   Segment part_faces_;  // of mixed_faces_, in the part last sorted
-  std::vector<std::uint32_t> acting_;
+  AlignedVector<std::int32_t> acting_;
   std::vector<Pack> left_, right_, jump_;  // scratch per phase
 };
 

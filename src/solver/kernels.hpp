@@ -7,8 +7,6 @@
 
 namespace cobasis {
 
-using CellList = AlignedVector<std::int32_t>;
-
 struct PhaseKernels {
   void (*primitives)(Phase&, const CellList&, std::int32_t n, BadCells&) = nullptr;
   void (*sweep_pure)(Faces&, Phase&, Segment) = nullptr;

@@ -29,18 +29,15 @@ class Timed {
   double start_;
 };
 
-void fill_pack(CellList& list) {
-  const std::size_t n = list.size();
-  while (list.size() % pack_width != 0) list.push_back(list[n - 1]);
-}
-
 }  // namespace
 
 double Solver::advance(double until) {
   const double start = seconds();
   const bool multiphase = fields_.multiphase();
-  if (multiphase) interfaces_->clear(fields_);
-  else std::fill(faces_.fastest.begin(), faces_.fastest.end(), 0.0);
+  if (multiphase)
+    interfaces_->clear(fields_);
+  else
+    std::fill(faces_.fastest.begin(), faces_.fastest.end(), 0.0);
 
   send_halo();
   sweep(Part::inside);
@@ -54,9 +51,8 @@ double Solver::advance(double until) {
   double step;
   {
     const Timed timed(clock_.kernels);
-    const auto count = static_cast<std::int32_t>(material_count_);
-    step = options_.scalar ? largest_step<double>(faces_, fields_.volume, material_cells_, count)
-                           : largest_step<Pack>(faces_, fields_.volume, material_cells_, count);
+    step = options_.scalar ? largest_step<double>(faces_, fields_.volume, material_cells_, material_count_)
+                           : largest_step<Pack>(faces_, fields_.volume, material_cells_, material_count_);
   }
   if (step == 0) find_undefined_speed();
   step = mpi_.min(step);
@@ -136,8 +132,13 @@ void Solver::receive_halo() {
       for (Phase& phase : fields_.phases)
         if (!fields_.multiphase() || phase.alpha[cell] > 0)
           for (auto& component : phase.conserved) component[cell] = *in++;
-      if (fields_.multiphase()) fields_.complete(cell);
     }
+  }
+  if (fields_.multiphase()) {
+    scratch_cells_.clear();
+    for (std::int32_t cell = mesh_.n_owned; cell < mesh_.n_cells(); ++cell) scratch_cells_.push(cell);
+    scratch_cells_.fill(pack_width);
+    fields_.complete(scratch_cells_, mesh_.n_halo);
   }
   BadCells ignored;  // the owner reports
   for (int k = 0; k < fields_.n_phases(); ++k) {
@@ -145,38 +146,57 @@ void Solver::receive_halo() {
     if (phase.is_void) continue;
     scratch_cells_.clear();
     for (std::int32_t cell = mesh_.n_owned; cell < mesh_.n_cells(); ++cell)
-      if (!fields_.multiphase() || phase.alpha[cell] > 0) scratch_cells_.push_back(cell);
-    const auto count = static_cast<std::int32_t>(scratch_cells_.size());
-    fill_pack(scratch_cells_);
+      if (!fields_.multiphase() || phase.alpha[cell] > 0) scratch_cells_.push(cell);
+    const std::int32_t count = scratch_cells_.size();
+    scratch_cells_.fill(pack_width);
     const Timed timed(clock_.kernels);
     kernels_[k].primitives(phase, scratch_cells_, count, ignored);
   }
 }
 
 /// Which cells each phase is updated in: those inside the phase, and those where anything else is near.
-void Solver::list_cells() {
+COBASIS_KERNEL void Solver::list_cells() {
+  const Timed timed(clock_.kernels);
   const int n = fields_.n_phases();
+  int the_void = -2;
   for (int k = 0; k < n; ++k) {
     pure_cells_[k].clear();
     mixed_cells_[k].clear();
+    if (fields_.phases[k].is_void) the_void = k;
   }
   touched_cells_.clear();
   material_cells_.clear();
-  const std::vector<std::uint32_t>& acting = interfaces_->acting();
-  for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) {
-    const int only = fields_.pure[cell];
-    if (acting[cell] != 0) {
-      touched_cells_.push_back(cell);
-      material_cells_.push_back(cell);
-      for (std::uint32_t bits = acting[cell]; bits != 0; bits &= bits - 1)
-        mixed_cells_[std::countr_zero(bits)].push_back(cell);
-    } else if (!fields_.phases[only].is_void) {
-      material_cells_.push_back(cell);
-      pure_cells_[only].push_back(cell);
+  const auto same = [](int value) {
+    Indices<Pack> all;
+    all.fill(value);
+    return all;
+  };
+  const auto choose = [](CellList& list, unsigned bits, const Indices<Pack>& at) {
+    store_chosen(bits, at, list.end());
+    list.grow(std::popcount(bits));
+  };
+  for (std::int32_t first = 0; first < mesh_.n_owned; first += pack_width) {
+    const std::int32_t count = std::min(pack_width, mesh_.n_owned - first);
+    const unsigned valid = (1u << count) - 1;
+    const Indices<Pack> pure = load_indices<Pack>(&fields_.pure[first]),
+                        acting = load_indices<Pack>(&interfaces_->acting()[first]);
+    const unsigned touched = ~equal_lanes(acting, same(0)) & valid;
+    const unsigned material = touched | (~equal_lanes(pure, same(the_void)) & valid);
+    if (material == 0) continue;
+    Indices<Pack> at;
+    for (int i = 0; i < pack_width; ++i) at[i] = first + i;
+    choose(touched_cells_, touched, at);
+    choose(material_cells_, material, at);
+    for (int k = 0; k < n; ++k) {
+      if (k == the_void) continue;
+      choose(pure_cells_[k], equal_lanes(pure, same(k)) & ~touched & valid, at);
+      Indices<Pack> acts;
+      for (int i = 0; i < pack_width; ++i) acts[i] = acting[i] & (1 << k);
+      choose(mixed_cells_[k], ~equal_lanes(acts, same(0)) & touched, at);
     }
   }
   material_count_ = material_cells_.size();
-  fill_pack(material_cells_);
+  material_cells_.fill(pack_width);
 }
 
 void Solver::update_cells(double dt) {
@@ -186,14 +206,17 @@ void Solver::update_cells(double dt) {
     if (phase.is_void) continue;
     for (const bool mixed : {false, true}) {
       CellList& cells = mixed ? mixed_cells_[k] : pure_cells_[k];
-      const auto count = static_cast<std::int32_t>(fields_.multiphase() ? cells.size() : mesh_.n_owned);
-      fill_pack(cells);
+      const std::int32_t count = fields_.multiphase() ? cells.size() : mesh_.n_owned;
+      cells.fill(pack_width);
       (mixed ? kernels_[k].update_mixed : kernels_[k].update_pure)(faces_, fields_.volume, phase, cells,
                                                                    mixed && !fields_.multiphase() ? 0 : count, dt);
     }
   }
-  if (fields_.multiphase())
-    for (const std::int32_t cell : touched_cells_) fields_.complete(cell);
+  if (!fields_.multiphase()) return;
+  const std::int32_t touched = touched_cells_.size();
+  touched_cells_.fill(pack_width);
+  fields_.complete(touched_cells_, touched);
+  touched_cells_.cut(touched);
 }
 
 void Solver::book_boundaries(double dt) {
@@ -217,15 +240,15 @@ void Solver::book_boundaries(double dt) {
 
 void Solver::convert_owned(double dt) {
   const auto convert = [&](int k, CellList& cells) {
-    const auto count = static_cast<std::int32_t>(cells.size());
-    fill_pack(cells);
+    const std::int32_t count = cells.size();
+    cells.fill(pack_width);
     const Timed timed(clock_.kernels);
     kernels_[k].primitives(fields_.phases[k], cells, count, bad_);
   };
   if (!fields_.multiphase()) {
     bad_.clear();
     const Timed timed(clock_.kernels);
-    kernels_[0].primitives(fields_.phases[0], material_cells_, static_cast<std::int32_t>(material_count_), bad_);
+    kernels_[0].primitives(fields_.phases[0], material_cells_, material_count_, bad_);
     for (const std::int32_t cell : bad_) note_unphysical(0, cell);
     return;
   }
@@ -235,8 +258,8 @@ void Solver::convert_owned(double dt) {
     const Phase& phase = fields_.phases[k];
     if (phase.is_void) continue;
     scratch_cells_.clear();
-    for (const std::int32_t cell : mixed_cells_[k])
-      if (phase.alpha[cell] > 0) scratch_cells_.push_back(cell);
+    for (const std::int32_t cell : mixed_cells_[k].span())
+      if (phase.alpha[cell] > 0) scratch_cells_.push(cell);
     bad_.clear();
     convert(k, pure_cells_[k]);
     convert(k, scratch_cells_);
@@ -249,7 +272,8 @@ void Solver::convert_owned(double dt) {
     std::vector<std::pair<std::int32_t, int>> fragments;
     for (const auto& [cell, k] : inadmissible)
       if (fields_.phases[k].alpha[cell] < fragment) fragments.emplace_back(cell, k);
-    const std::vector<std::int32_t>& exchanged = exchange_->run(mesh_, faces_, fields_, dt, touched_cells_, fragments);
+    const std::vector<std::int32_t>& exchanged =
+        exchange_->run(mesh_, faces_, fields_, dt, touched_cells_.span(), fragments);
     std::vector<std::pair<std::int32_t, int>> remaining;
     for (const auto& entry : inadmissible)
       if (!std::binary_search(exchanged.begin(), exchanged.end(), entry.first)) remaining.push_back(entry);
@@ -257,7 +281,7 @@ void Solver::convert_owned(double dt) {
       if (fields_.phases[k].is_void) continue;
       scratch_cells_.clear();
       for (const std::int32_t cell : exchanged)
-        if (fields_.phases[k].alpha[cell] > 0) scratch_cells_.push_back(cell);
+        if (fields_.phases[k].alpha[cell] > 0) scratch_cells_.push(cell);
       bad_.clear();
       convert(k, scratch_cells_);
       for (const std::int32_t cell : bad_) remaining.emplace_back(cell, k);
@@ -288,7 +312,7 @@ void Solver::note_unphysical(int k, std::int32_t cell) {
 
 /// A wave speed that is not a real number: names the phase whose state in the cell, or beside it, makes it so.
 void Solver::find_undefined_speed() {
-  for (std::size_t i = 0; i < material_count_; ++i) {
+  for (std::int32_t i = 0; i < material_count_; ++i) {
     const std::int32_t cell = material_cells_[i];
     for (int j = 0; j < faces_.max_cell_faces; ++j) {
       const std::int32_t face = faces_.cell_faces[static_cast<std::size_t>(j) * faces_.cell_stride + cell] >> 1;

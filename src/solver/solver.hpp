@@ -97,9 +97,9 @@ class Solver {
   std::unique_ptr<NeighbourExchange> halo_;
 
   std::vector<CellList> pure_cells_, mixed_cells_;  // per phase: owned cells to update in the present step
-  CellList material_cells_;         // owned cells that are not void or have a neighbour that is not, filled to a pack
-  std::size_t material_count_ = 0;  // of these, without the filling
-  std::vector<std::int32_t> touched_cells_;  // owned cells with a face that is not pure, ascending
+  CellList material_cells_;          // owned cells that are not void or have a neighbour that is not, filled to a pack
+  std::int32_t material_count_ = 0;  // of these, without the filling
+  CellList touched_cells_;           // owned cells with a face that is not pure, ascending
   CellList scratch_cells_;
   BadCells bad_;
   std::vector<std::vector<std::vector<double>>> booked_;  // [phase][mass, momentum, energy][boundary face]

@@ -167,10 +167,8 @@ void Solver::allocate() {
   mixed_cells_.resize(fields_.n_phases());
   const std::size_t cells = mesh_.n_cells() + pack_width;
   for (auto* lists : {&pure_cells_, &mixed_cells_})
-    for (CellList& list : *lists) list.reserve(cells);
-  material_cells_.reserve(cells);
-  scratch_cells_.reserve(cells);
-  touched_cells_.reserve(cells);
+    for (CellList& list : *lists) list = CellList(cells);
+  for (auto* list : {&material_cells_, &scratch_cells_, &touched_cells_}) *list = CellList(cells);
   booked_.assign(fields_.n_phases(), std::vector<std::vector<double>>(
                                          fields_.dimension + 2, std::vector<double>(mesh_.n_boundary_faces, 0.0)));
 }
@@ -202,6 +200,7 @@ void Solver::set_initial_state() {
     throw InputError(mistake.empty() ? "another rank found the initial state wrong" : mistake);
 
   std::vector<CellList> ghosts(n);
+  for (CellList& list : ghosts) list = CellList(mesh_.n_ghosts);
   for (std::size_t i = 0; i < boundaries_.size(); ++i) {
     const auto* inflow = std::get_if<Inflow>(&boundaries_[i]);
     if (!inflow) continue;
@@ -209,7 +208,7 @@ void Solver::set_initial_state() {
       for (int k = 0; k < n; ++k) {
         const double alpha = inflow->filling.alpha[k];
         set_state(k, mesh_.ghost_of(face), alpha, inflow->filling.states[k], mesh_.face_centroid[face]);
-        if (alpha > 0 && !fields_.phases[k].is_void) ghosts[k].push_back(mesh_.ghost_of(face));
+        if (alpha > 0 && !fields_.phases[k].is_void) ghosts[k].push(mesh_.ghost_of(face));
       }
   }
   if (fields_.multiphase()) {
@@ -219,21 +218,22 @@ void Solver::set_initial_state() {
         for (std::int32_t face = mesh_.boundary_groups[i].first; face < mesh_.boundary_groups[i].last; ++face)
           fields_.complete(mesh_.ghost_of(face));
   } else {
-    for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) material_cells_.push_back(cell);
-    material_count_ = material_cells_.size();
-    while (material_cells_.size() % pack_width != 0) material_cells_.push_back(material_cells_[material_count_ - 1]);
-    pure_cells_[0] = material_cells_;
+    for (CellList* list : {&material_cells_, &pure_cells_[0]}) {
+      for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) list->push(cell);
+      list->fill(pack_width);
+    }
+    material_count_ = mesh_.n_owned;
   }
   for (int k = 0; k < n; ++k) {
     Phase& phase = fields_.phases[k];
     if (phase.is_void) continue;
-    CellList cells;
+    CellList cells(mesh_.n_owned);
     for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell)
-      if (!fields_.multiphase() || phase.alpha[cell] > 0) cells.push_back(cell);
+      if (!fields_.multiphase() || phase.alpha[cell] > 0) cells.push(cell);
     bad_.clear();
     for (CellList* list : {&cells, &ghosts[k]}) {
-      const auto count = static_cast<std::int32_t>(list->size());
-      while (list->size() % pack_width != 0) list->push_back((*list)[count - 1]);
+      const std::int32_t count = list->size();
+      list->fill(pack_width);
       kernels_[k].primitives(phase, *list, count, bad_);
     }
     for (const std::int32_t cell : bad_)

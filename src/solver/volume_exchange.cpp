@@ -59,6 +59,7 @@ VolumeExchange::VolumeExchange(const Mpi& mpi, const Mesh& mesh, const Fields& f
   for (auto* requests : {&asked_, &received_}) requests->reserve(cells);
   deposits_.reserve(2 * cells);
   extractions_.reserve(2 * cells);
+  completed_ = CellList(cells);
   for (auto* list : {&order_, &given_, &taken_, &touched_}) list->reserve(2 * cells);
   for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
     const Neighbour& neighbour = mesh.neighbours[n];
@@ -125,7 +126,7 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
 }
 
 void VolumeExchange::ask(const Mesh& mesh, const Faces& faces, const Fields& fields, double dt,
-                         const std::vector<std::int32_t>& candidates,
+                         std::span<const std::int32_t> candidates,
                          const std::vector<std::pair<std::int32_t, int>>& forced) {
   asked_.clear();
   auto next_forced = forced.begin();
@@ -239,8 +240,10 @@ void VolumeExchange::serve(const Mesh& mesh, const Fields& fields) {
       given = content_of(fields, r.j, r.donor);
       for (double& value : given) value *= r.volume / available;
     }
-    if (local) settle(mesh, r, r.answer, given);
-    else contents_[r.content] = given;
+    if (local)
+      settle(mesh, r, r.answer, given);
+    else
+      contents_[r.content] = given;
   }
 }
 
@@ -338,11 +341,14 @@ void VolumeExchange::apply(Fields& fields) {
     if (taken_.empty() || taken_.back() != deposit.cell) taken_.push_back(deposit.cell);
   }
   std::set_union(given_.begin(), given_.end(), taken_.begin(), taken_.end(), std::back_inserter(touched_));
-  for (const std::int32_t cell : touched_) fields.complete(cell);
+  completed_.clear();
+  for (const std::int32_t cell : touched_) completed_.push(cell);
+  completed_.fill(pack_width);
+  fields.complete(completed_, static_cast<std::int32_t>(touched_.size()));
 }
 
 const std::vector<std::int32_t>& VolumeExchange::run(const Mesh& mesh, const Faces& faces, Fields& fields, double dt,
-                                                     const std::vector<std::int32_t>& candidates,
+                                                     std::span<const std::int32_t> candidates,
                                                      const std::vector<std::pair<std::int32_t, int>>& forced) {
   touched_.clear();
   given_.clear();

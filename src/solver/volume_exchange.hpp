@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -32,7 +33,7 @@ class VolumeExchange {
   /// phase) fragments to be exchanged whatever their size, ascending. Collective. Returns the owned cells that were
   /// touched, ascending.
   const std::vector<std::int32_t>& run(const Mesh& mesh, const Faces& faces, Fields& fields, double dt,
-                                       const std::vector<std::int32_t>& candidates,
+                                       std::span<const std::int32_t> candidates,
                                        const std::vector<std::pair<std::int32_t, int>>& forced);
 
   const ExchangeCounters& counters() const { return counters_; }
@@ -50,7 +51,7 @@ class VolumeExchange {
     int neighbour;  // who asks (received) or is asked (sent); -1: this rank itself
     int position;   // among the requests of that neighbour
     Answer answer;
-    int content;    // received from another rank: where in contents_; else -1
+    int content;  // received from another rank: where in contents_; else -1
   };
   struct Deposit {
     std::int32_t cell;
@@ -67,7 +68,7 @@ class VolumeExchange {
 
   void share_alpha(const Mesh& mesh, Fields& fields);
   void ask(const Mesh& mesh, const Faces& faces, const Fields& fields, double dt,
-           const std::vector<std::int32_t>& candidates, const std::vector<std::pair<std::int32_t, int>>& forced);
+           std::span<const std::int32_t> candidates, const std::vector<std::pair<std::int32_t, int>>& forced);
   void request(const Mesh& mesh, const Faces& faces, const Fields& fields, std::int32_t cell, int k, bool forced);
   void deliver(const Mesh& mesh, const Fields& fields);
   void serve(const Mesh& mesh, const Fields& fields);
@@ -86,6 +87,7 @@ class VolumeExchange {
   std::vector<Deposit> deposits_;
   std::vector<Extraction> extractions_;
   std::vector<std::int32_t> given_, taken_, touched_;  // cells
+  CellList completed_;
   ExchangeCounters counters_;
   std::vector<double> volume_of_cell_;
 };
