@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace cobasis {
 namespace {
@@ -57,7 +58,9 @@ std::string progress_line(const ProgressState& state, int width) {
 
 ProgressStyle progress_style(bool quiet) {
   if (quiet) return ProgressStyle::silent;
-  return ::isatty(STDOUT_FILENO) ? ProgressStyle::bar : ProgressStyle::lines;
+  const bool under_mpirun =
+      std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr;  // which gives its programs terminals of its own
+  return !under_mpirun && ::isatty(STDOUT_FILENO) ? ProgressStyle::bar : ProgressStyle::lines;
 }
 
 void Progress::update(const ProgressState& state) {

@@ -21,7 +21,7 @@ std::string progress_line(const ProgressState& state, int width);
 
 enum class ProgressStyle { silent, lines, bar };
 
-/// silent if quiet, else bar if standard output is a terminal.
+/// silent if quiet, else bar if standard output is a terminal and no mpirun stands between.
 ProgressStyle progress_style(bool quiet);
 
 /// A bar refreshed in place at most five times a second, or a plain line per 5 % of the run or 10 s, whichever is

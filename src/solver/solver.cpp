@@ -4,30 +4,15 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 
 #include "math/errors.hpp"
+#include "solver/stopwatch.hpp"
 
 namespace cobasis {
 namespace {
 
 constexpr double fragment = 1e-2;  // below this volume fraction an inadmissible state is given to a neighbour
-
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-/// Adds the time until its end to a sum.
-class Timed {
- public:
-  explicit Timed(double& sum) : sum_(sum), start_(seconds()) {}
-  ~Timed() { sum_ += seconds() - start_; }
-  Timed(const Timed&) = delete;
-  Timed& operator=(const Timed&) = delete;
-
- private:
-  double& sum_;
-  double start_;
-};
 
 }  // namespace
 
@@ -226,8 +211,9 @@ void Solver::book_boundaries(double dt) {
     const Phase& phase = fields_.phases[k];
     if (phase.is_void) continue;
     const PhaseKernels& kernels = kernels_[k];
+    const std::int32_t* const slots = &phase.lists.slot_of_face[mesh_.first_boundary_face()];
     for (std::int32_t i = 0; i < mesh_.n_boundary_faces; ++i) {
-      const std::int32_t slot = phase.lists.slot_of_face[mesh_.first_boundary_face() + i];
+      const std::int32_t slot = slots[i];
       if (slot == 0) continue;
       const double* flux = phase.flux.data() + slot_base(slot, kernels.n_flux);
       for (int c = 0; c < D + 2; ++c) booked_[k][c][i] += dt * flux[c * pack_width];
@@ -235,6 +221,19 @@ void Solver::book_boundaries(double dt) {
       const double* gain = phase.gain.data() + slot_base(gain_slot(slot, first_mixed), kernels.n_gain);
       for (int c = 0; c < D + 2; ++c) booked_[k][c][i] -= dt * gain[c * pack_width];
     }
+  }
+}
+
+/// The cells of the list that hold the phase; what fills up a list may come twice.
+void Solver::choose_present(CellList& cells, const Phase& phase) {
+  const Timed timed(clock_.kernels);
+  scratch_cells_.clear();
+  cells.fill(pack_width);
+  for (std::int32_t i = 0; i < cells.size(); i += pack_width) {
+    const Indices<Pack> at = load_indices<Pack>(&cells[i]);
+    const unsigned here = positive_lanes(gather<Pack>(phase.alpha.data(), at));
+    store_chosen(here, at, scratch_cells_.end());
+    scratch_cells_.grow(std::popcount(here));
   }
 }
 
@@ -257,9 +256,7 @@ void Solver::convert_owned(double dt) {
   for (int k = 0; k < fields_.n_phases(); ++k) {
     const Phase& phase = fields_.phases[k];
     if (phase.is_void) continue;
-    scratch_cells_.clear();
-    for (const std::int32_t cell : mixed_cells_[k].span())
-      if (phase.alpha[cell] > 0) scratch_cells_.push(cell);
+    choose_present(mixed_cells_[k], phase);
     bad_.clear();
     convert(k, pure_cells_[k]);
     convert(k, scratch_cells_);
@@ -272,8 +269,10 @@ void Solver::convert_owned(double dt) {
     std::vector<std::pair<std::int32_t, int>> fragments;
     for (const auto& [cell, k] : inadmissible)
       if (fields_.phases[k].alpha[cell] < fragment) fragments.emplace_back(cell, k);
+    const double kernels_before = exchange_->kernel_seconds();
     const std::vector<std::int32_t>& exchanged =
         exchange_->run(mesh_, faces_, fields_, dt, touched_cells_.span(), fragments);
+    clock_.kernels += exchange_->kernel_seconds() - kernels_before;
     std::vector<std::pair<std::int32_t, int>> remaining;
     for (const auto& entry : inadmissible)
       if (!std::binary_search(exchanged.begin(), exchanged.end(), entry.first)) remaining.push_back(entry);

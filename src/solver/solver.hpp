@@ -34,8 +34,8 @@ struct SolverOptions {
 struct StepClock {
   double inside_swept = 0, halo_received = 0;  ///< of the last step
   double total = 0;                            ///< of whole steps, summed
-  double kernels = 0;                          ///< inside Pack kernels: contacts, sweeps, updates, conversions; summed
-  double sweeps = 0;                           ///< of these, in sweeps over faces; summed
+  double kernels = 0;  ///< inside loops over packs: lists, contacts, sweeps, updates, conversions; summed
+  double sweeps = 0;   ///< of these, in sweeps over faces; summed
 };
 
 class Solver {
@@ -76,6 +76,7 @@ class Solver {
   void list_cells();
   void update_cells(double dt);
   void book_boundaries(double dt);
+  void choose_present(CellList& cells, const Phase& phase);
   void convert_owned(double dt);
   void note_unphysical(int k, std::int32_t cell);
   void find_undefined_speed();

@@ -1,10 +1,13 @@
 #include "solver/volume_exchange.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <numeric>
 #include <tuple>
+
+#include "solver/stopwatch.hpp"
 
 namespace cobasis {
 namespace {
@@ -60,6 +63,7 @@ VolumeExchange::VolumeExchange(const Mpi& mpi, const Mesh& mesh, const Fields& f
   deposits_.reserve(2 * cells);
   extractions_.reserve(2 * cells);
   completed_ = CellList(cells);
+  small_ = CellList(cells);
   for (auto* list : {&order_, &given_, &taken_, &touched_}) list->reserve(2 * cells);
   for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
     const Neighbour& neighbour = mesh.neighbours[n];
@@ -125,19 +129,42 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
   asked_.push_back({mesh.global_id[cell], cell, donor, k, j, volume, own, dust_only, -1, 0, Answer::refused, -1});
 }
 
+/// The candidates with a phase that is there in small, and those with a forced one.
+COBASIS_KERNEL void VolumeExchange::find_small(const Fields& fields, std::span<const std::int32_t> candidates,
+                                               const std::vector<std::pair<std::int32_t, int>>& forced) {
+  small_.clear();
+  auto next_forced = forced.begin();
+  const auto n = static_cast<std::int32_t>(candidates.size());
+  for (std::int32_t i = 0; i < n; i += pack_width) {
+    Indices<Pack> at;
+    for (int j = 0; j < pack_width; ++j) at[j] = candidates[std::min(i + j, n - 1)];
+    unsigned small = 0;
+    for (const Phase& phase : fields.phases) {
+      const Pack alpha = gather<Pack>(phase.alpha.data(), at);
+      Pack there = magnitude(alpha);
+      if (!phase.is_void) there += magnitude(gather<Pack>(phase.conserved[0].data(), at));
+      small |= positive_lanes(largest_threshold - alpha) & positive_lanes(there);
+    }
+    for (int j = 0; j < pack_width && next_forced != forced.end(); ++j) {
+      if (next_forced->first == at[j]) small |= 1u << j;
+      while (next_forced != forced.end() && next_forced->first <= at[j]) ++next_forced;
+    }
+    if (n - i < pack_width) small &= (1u << (n - i)) - 1;
+    store_chosen(small, at, small_.end());
+    small_.grow(std::popcount(small));
+  }
+}
+
 void VolumeExchange::ask(const Mesh& mesh, const Faces& faces, const Fields& fields, double dt,
                          std::span<const std::int32_t> candidates,
                          const std::vector<std::pair<std::int32_t, int>>& forced) {
   asked_.clear();
+  {
+    const Timed timed(kernel_seconds_);
+    find_small(fields, candidates, forced);
+  }
   auto next_forced = forced.begin();
-  for (const std::int32_t cell : candidates) {
-    if (fields.pure[cell] >= 0) continue;
-    while (next_forced != forced.end() && next_forced->first < cell) ++next_forced;
-    const bool has_forced = next_forced != forced.end() && next_forced->first == cell;
-    bool small = has_forced;
-    for (const Phase& phase : fields.phases)
-      small = small || (phase.alpha[cell] < largest_threshold && may_be_there(phase, cell));
-    if (!small) continue;
+  for (const std::int32_t cell : small_.span()) {
     // the threshold follows the speed of the material, so that slow fronts move as exactly as fast ones
     int material = -1;
     for (int k = 0; k < fields.n_phases(); ++k)
@@ -341,6 +368,7 @@ void VolumeExchange::apply(Fields& fields) {
     if (taken_.empty() || taken_.back() != deposit.cell) taken_.push_back(deposit.cell);
   }
   std::set_union(given_.begin(), given_.end(), taken_.begin(), taken_.end(), std::back_inserter(touched_));
+  const Timed timed(kernel_seconds_);
   completed_.clear();
   for (const std::int32_t cell : touched_) completed_.push(cell);
   completed_.fill(pack_width);

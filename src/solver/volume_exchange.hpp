@@ -36,6 +36,7 @@ class VolumeExchange {
                                        std::span<const std::int32_t> candidates,
                                        const std::vector<std::pair<std::int32_t, int>>& forced);
 
+  double kernel_seconds() const { return kernel_seconds_; }  ///< spent in loops over packs so far
   const ExchangeCounters& counters() const { return counters_; }
   /// Volume that each owned cell has got rid of so far [m^3].
   const std::vector<double>& volume_of_cell() const { return volume_of_cell_; }
@@ -67,6 +68,8 @@ class VolumeExchange {
   };
 
   void share_alpha(const Mesh& mesh, Fields& fields);
+  void find_small(const Fields& fields, std::span<const std::int32_t> candidates,
+                  const std::vector<std::pair<std::int32_t, int>>& forced);
   void ask(const Mesh& mesh, const Faces& faces, const Fields& fields, double dt,
            std::span<const std::int32_t> candidates, const std::vector<std::pair<std::int32_t, int>>& forced);
   void request(const Mesh& mesh, const Faces& faces, const Fields& fields, std::int32_t cell, int k, bool forced);
@@ -87,8 +90,9 @@ class VolumeExchange {
   std::vector<Deposit> deposits_;
   std::vector<Extraction> extractions_;
   std::vector<std::int32_t> given_, taken_, touched_;  // cells
-  CellList completed_;
+  CellList small_, completed_;
   ExchangeCounters counters_;
+  double kernel_seconds_ = 0;
   std::vector<double> volume_of_cell_;
 };
 
