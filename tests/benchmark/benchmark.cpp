@@ -77,9 +77,12 @@ int main() {
   int no_arguments = 0;
   char** arguments = nullptr;
   const Mpi mpi(no_arguments, arguments);
-  const std::string triangles = "box.geo\"\nmesh_parameters = { n = 200, element = 3 }\n#\"";
-  const std::string hexahedra = "box_space.geo\"\nmesh_parameters = { n = 40, element = 8 }\n#\"";
-  const std::string tetrahedra = "box_space.geo\"\nmesh_parameters = { n = 26, element = 4 }\n#\"";
+  const auto mesh = [](const std::string& file, int n, int element) {
+    return file + ".geo\"\nmesh_parameters = { n = " + std::to_string(n) + ", element = " + std::to_string(element) +
+           " }\n#\"";
+  };
+  const std::string triangles = mesh("box", 200, 3), hexahedra = mesh("box_space", 40, 8),
+                    tetrahedra = mesh("box_space", 26, 4);
   const std::string all = "shape = \"everywhere\"";
   const std::string disc = "shape = \"sphere\"\ncenter = [0.5, 0.5]\nradius = 0.3",
                     ball = "shape = \"sphere\"\ncenter = [0.5, 0.5, 0.5]\nradius = 0.3";
@@ -99,6 +102,10 @@ int main() {
   benchmark("space, hexahedra: gas", scene(hexahedra, gas, fill(all, "air", "\"100*y\", 0, 0")), 20);
   benchmark("space, hexahedra: solid", scene(hexahedra, solid, fill(all, "aluminium", "\"100*y\", 0, 0")), 20);
   benchmark("space, tetrahedra: solid", scene(tetrahedra, solid, fill(all, "aluminium", "\"100*y\", 0, 0")), 20);
+  benchmark("plane, triangles: solid, in cache",
+            scene(mesh("box", 30, 3), solid, fill(all, "aluminium", "\"100*y\", 0")), 400);
+  benchmark("space, hexahedra: solid, in cache",
+            scene(mesh("box_space", 12, 8), solid, fill(all, "aluminium", "\"100*y\", 0, 0")), 400);
   benchmark("space, hexahedra: solid in gas",
             scene(hexahedra, solid + gas, fill(all, "air", "") + fill(ball, "aluminium", "100, 20, 0")), 20);
   benchmark("space, hexahedra: solid in void",
