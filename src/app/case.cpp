@@ -68,7 +68,10 @@ Setup read_case(const std::string& file, const CaseOverrides& overrides) {
   read_regions(top, reading);
   read_boundaries(top, reading);
   read_output(top, reading);
-  if (!overrides.output.empty()) reading.setup.output.directory = overrides.output;
+  if (!overrides.output.empty()) {
+    reading.setup.output.directory = overrides.output;
+    reading.setup.output.where = "--output";
+  }
   if (reading.setup.scene)
     for (const std::string& mistake : mistakes_in_geometry(reading.setup, *reading.setup.scene))
       reading.mistakes.add(mistake);

@@ -62,6 +62,7 @@ void read_output_table(CaseTable& table, CaseReading& reading) {
   if (directory && directory->empty())
     reading.mistakes.add(table.where("directory"), "directory = \"\"; allowed: a path relative to the case file");
   output.directory = directory_of(directory, reading.setup.case_file);
+  output.where = reading.mistakes.where(directory ? table.where("directory") : table.where());
   output.every = table.number("every");
   if (const auto count = table.integer("count")) output.count = static_cast<int>(*count);
   if (const auto fields = table.words("fields")) output.fields = *fields;
@@ -74,6 +75,7 @@ void read_output_table(CaseTable& table, CaseReading& reading) {
 void read_output(const CaseTable& top, CaseReading& reading) {
   Setup& setup = reading.setup;
   setup.output.directory = directory_of(std::nullopt, setup.case_file);
+  setup.output.where = setup.case_file;
   setup.output.fields = {"alpha", "density", "velocity", "pressure", "stress"};
   if (auto table = top.table("output", keys_of("[output]"))) read_output_table(*table, reading);
   if (!setup.output.every && !setup.output.count) setup.output.count = default_count;

@@ -65,7 +65,8 @@ Output::Output(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
       }
     });
   } catch (const SystemError& error) {
-    throw InputError(fmt::format("{}: [output] directory: {}", setup.case_file, error.what()));
+    throw InputError(
+        fmt::format("{}: {}; allowed: a directory that can be made and written to", setup.output.where, error.what()));
   }
   for (const LineSetup& line : setup.lines) {
     const std::string what = fmt::format("{}: [[line]] '{}'", setup.case_file, line.name);

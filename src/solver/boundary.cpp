@@ -31,7 +31,7 @@ std::vector<Boundary> resolve_boundaries(const Setup& setup, const Mesh& mesh) {
     } else {
       mistakes += fmt::format(
           "{}: the mesh's physical group '{}' has no boundary condition; name it in [boundary] or add \"*\"\n",
-          setup.case_file, group.name);
+          setup.boundaries.empty() ? setup.case_file : setup.boundaries.front().where, group.name);
     }
   }
   if (!mistakes.empty()) throw InputError(mistakes.substr(0, mistakes.size() - 1));

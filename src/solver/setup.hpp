@@ -93,6 +93,7 @@ struct BoundarySetup {
 
 struct OutputSetup {
   std::string directory;        ///< resolved path
+  std::string where;            ///< file:line of the directory, or the option that names it
   std::optional<double> every;  ///< [s]; exactly one of every, count is set
   std::optional<int> count;
   std::vector<std::string> fields;  ///< of: alpha density velocity pressure stress cobasis energy (mixture follows)

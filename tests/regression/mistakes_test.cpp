@@ -207,9 +207,15 @@ TEST_CASE("an output directory that cannot be is refused before the first step")
     INFO(outcome.out << outcome.err);
     CHECK(outcome.status == 2);
     CHECK(outcome.out.empty());
-    CHECK_THAT(outcome.err, Contains("right.toml: [output] directory: ") && Contains(directory));
+    CHECK_THAT(outcome.err, Contains("--output: ") && Contains(directory) && Contains("allowed"));
   }
-  CHECK(folder.contents() == std::vector<std::string>{"right.toml", "taken"});
+  const std::string wrong = right + "[output]\ndirectory = \"taken\"\n";
+  folder.write("wrong.toml", complete(wrong));
+  const Outcome outcome = shell(program_with("run wrong.toml"), folder);
+  CHECK(outcome.status == 2);
+  CHECK_THAT(outcome.err,
+             Contains("wrong.toml:" + std::to_string(line_of(wrong, "directory")) + ": ") && Contains("taken"));
+  CHECK(folder.contents() == std::vector<std::string>{"right.toml", "taken", "wrong.toml"});
   CHECK(contents_of(folder.path("taken")) == "a file");
 }
 

@@ -65,11 +65,12 @@ TEST_CASE("a row that does not fit leaves no part of it") {
 TEST_CASE("a directory that cannot be made is the user's error, named") {
   const Scratch scratch;
   write_atomically((scratch.path / "occupied").string(), "a file");
-  const Setup setup = three_phases(scratch.path / "occupied" / "results");
+  Setup setup = three_phases(scratch.path / "occupied" / "results");
+  setup.output.where = "case.toml:7";
   const Mesh mesh = squares(4, 1, 1);
   CHECK_THROWS_AS(Output(setup, Geometry::plane, mesh, world()), InputError);
   CHECK_THROWS_WITH(Output(setup, Geometry::plane, mesh, world()),
-                    Catch::Contains("[output] directory") && Catch::Contains("occupied/results"));
+                    Catch::Contains("case.toml:7") && Catch::Contains("occupied/results"));
   CHECK(read(scratch.path / "occupied") == "a file");
 }
 
