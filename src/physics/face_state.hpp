@@ -63,6 +63,7 @@ FluidFace<G, Real> face_state(const FluidState<G, Real>& s, const Frame<G, Real>
 template <class G, class Real>
 SolidFace<G, Real> face_state(const HyperelasticMaterial& m, const SolidState<G, Real>& s,
                               const Frame<G, Real>& frame) {
+  constexpr double third = 1.0 / 3.0;  // a division costs as much as eight products
   const double a = m.a, kappa = m.kappa();
   const Symmetric<G, Real>& g = s.g;
   const Vec3 gn{g.xx * frame.n.x + g.xy * frame.n.y + g.xz * frame.n.z,
@@ -80,17 +81,17 @@ SolidFace<G, Real> face_state(const HyperelasticMaterial& m, const SolidState<G,
 
   // S_1i / rho, (6)
   const Real k = Real(-m.mu / m.rho0);
-  const Real S11 = k * (kappa * j1 * (g11 - j1 / 3.0) + a * (g11 * g11 + g12 * g12 + g13 * g13 - j2 / 3.0));
+  const Real S11 = k * (kappa * j1 * (g11 - third * j1) + a * (g11 * g11 + g12 * g12 + g13 * g13 - third * j2));
   const Real S12 = k * (kappa * j1 * g12 + a * (g11 * g12 + g12 * g22 + g13 * g23));
   const Third<G, Real> S13 = k * (kappa * j1 * g13 + a * (g11 * g13 + g12 * g23 + g13 * g33));
 
   // D1 / rho = d(S11/rho) along da = a at fixed rho
-  const Real dj1 = (4.0 * g11 - 2.0 * (g22 + g33)) / 3.0;
-  const Real d11 = 4.0 / 3.0 * (g11 * g11) + (g12 * g12 + g13 * g13) / 3.0;  // g_1i dg_1i
+  const Real dj1 = third * (4.0 * g11 - 2.0 * (g22 + g33));
+  const Real d11 = 4.0 / 3.0 * (g11 * g11) + third * (g12 * g12 + g13 * g13);  // g_1i dg_1i
   const Real dj2 =
-      2.0 * (d11 - 2.0 / 3.0 * (g22 * g22 + g33 * g33) + (g12 * g12 + g13 * g13) / 3.0 - 4.0 / 3.0 * (g23 * g23));
+      2.0 * (d11 - 2.0 / 3.0 * (g22 * g22 + g33 * g33) + third * (g12 * g12 + g13 * g13) - 4.0 / 3.0 * (g23 * g23));
   const Real D1 =
-      k * (kappa * (dj1 * (g11 - j1 / 3.0) + j1 * (4.0 / 3.0 * g11 - dj1 / 3.0)) + a * (2.0 * d11 - dj2 / 3.0));
+      k * (kappa * (dj1 * (g11 - third * j1) + j1 * (4.0 / 3.0 * g11 - third * dj1)) + a * (2.0 * d11 - third * dj2));
   const Real c1_squared = s.ch2 - S11 - D1;
 
   // joint shear speed: largest eigenvalue of the tangential acoustic tensor (mu / rho0) M

@@ -178,8 +178,9 @@ void VolumeExchange::ask(const Mesh& mesh, const Faces& faces, const Fields& fie
       const std::int32_t face = faces.cell_faces[static_cast<std::size_t>(f) * faces.cell_stride + cell] >> 1;
       double un = m.conserved[1][cell] * faces.nx[face] + m.conserved[2][cell] * faces.ny[face];
       if (fields.dimension == 3) un += m.conserved[3][cell] * faces.nz[face];
-      swept += faces.area[face] * std::fabs(un / mass);
+      swept += faces.area[face] * std::fabs(un);
     }
+    if (mass > 0) swept /= mass;
     const double threshold =
         std::max(smallest_threshold, std::min(largest_threshold, 0.1 * dt * swept / (2 * fields.volume[cell])));
     for (int k = 0; k < fields.n_phases(); ++k) {
