@@ -1,5 +1,6 @@
 #include "physics/face_state.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
 #include "dual.hpp"
@@ -37,15 +38,15 @@ struct AcousticTensor {
 AcousticTensor acoustic_tensor(const HyperelasticMaterial& m, const Cobasis<Space, double>& e, double rho,
                                const Frame<Space, double>& frame) {
   const Point tangents[] = {frame.t1, frame.t2};
-  double A[2][2];
+  Eigen::Matrix2d A;
   for (int k = 0; k < 2; ++k) {
     const Symmetric<Space, Dual> S =
         deviatoric_stress(m, Dual(rho), normalised_metric(sheared(e, frame.n, tangents[k])));
-    for (int i = 0; i < 2; ++i) A[i][k] = traction(S, tangents[i], frame.n).slope / rho;
+    for (int i = 0; i < 2; ++i) A(i, k) = traction(S, tangents[i], frame.n).slope / rho;
   }
-  const double mean = 0.5 * (A[0][0] + A[1][1]), half = 0.5 * (A[0][0] - A[1][1]), off = 0.5 * (A[0][1] + A[1][0]);
-  const double radius = std::sqrt(half * half + off * off);
-  return {mean - radius, mean + radius, A[0][1] - A[1][0]};
+  const Eigen::Vector2d eigenvalues =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(0.5 * (A + A.transpose()), Eigen::EigenvaluesOnly).eigenvalues();
+  return {eigenvalues[0], eigenvalues[1], A(0, 1) - A(1, 0)};
 }
 
 SolidState<Space, double> solid_state(const Cobasis<Space, double>& e, double rho, double p, double ch2) {
