@@ -141,7 +141,7 @@ TEST_CASE("the far side of a periodic face is outside, the near side inside") {
   CHECK(cells_at(mesh, {{3, 0.5, 0}}) == std::vector{3});
 }
 
-TEST_CASE("the mixture is weighted by volume for stress and pressure, by mass for velocity; a void is its pressure") {
+TEST_CASE("the mixture is weighted by volume for stress and pressure, by mass for velocity, and a void is its pressure") {
   const Setup setup = three_phases("unused");
   const Snapshot snapshot = three_phase_state(4, 0);
   const Mixture mixture = mix(snapshot, setup.phases);

@@ -39,7 +39,7 @@ TEST_CASE("bonded solids take the exact solution of the linear shear problem") {
   }
 }
 
-TEST_CASE("equal states bonded keep stress and velocity; a mirror leaves no shear stress and no slip of its own") {
+TEST_CASE("equal states bonded keep stress and velocity, and a mirror leaves no shear stress and no slip of its own") {
   Random random(2);
   for (int sample = 0; sample < 200; ++sample) {
     const Side s = random.face();
