@@ -63,7 +63,7 @@ FluidFace<G, Real> face_state(const FluidState<G, Real>& s, const Frame<G, Real>
 template <class G, class Real>
 SolidFace<G, Real> face_state(const HyperelasticMaterial& m, const SolidState<G, Real>& s,
                               const Frame<G, Real>& frame) {
-  constexpr double third = 1.0 / 3.0;  // a division costs as much as eight products
+  constexpr double third = 1.0 / 3.0;  // products, not divisions: these are the hot lines of a run
   const double a = m.a, kappa = m.kappa();
   const Symmetric<G, Real>& g = s.g;
   const Vec3 gn{g.xx * frame.n.x + g.xy * frame.n.y + g.xz * frame.n.z,

@@ -73,7 +73,7 @@ template <class G, class Real>
 FluidFace<G, Real> load_face_state(const Phase& phase, const Indices<Real>& cell, Zero, const Frame<G, Real>& frame) {
   return face_state(load_fluid_state<G, Real>(phase, cell), frame);
 }
-/// The metric is formed from e again: that is cheaper than to load six more numbers.
+/// The metric is formed from e, which is needed anyway; a cell keeps only its scale.
 template <class G, class Real>
 SolidFace<G, Real> load_face_state(const Phase& phase, const Indices<Real>& cell, const Cobasis<G, Real>& e,
                                    const Frame<G, Real>& frame) {
