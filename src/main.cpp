@@ -7,6 +7,7 @@
 
 #include "app/command_line.hpp"
 #include "app/simulation.hpp"
+#include "app/study.hpp"
 #include "math/errors.hpp"
 #include "mesh/mesh_info.hpp"
 #include "mesh/mpi.hpp"
@@ -21,6 +22,8 @@ void execute(const cobasis::CommandLine& command, const cobasis::Mpi& mpi) {
       return cobasis::run_case(command, mpi);
     case Command::check:
       return cobasis::check_case(command, mpi);
+    case Command::study:
+      return cobasis::study_case(command, mpi);
     case Command::info:
       if (mpi.root()) {
         cobasis::MeshRequest request;

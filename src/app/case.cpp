@@ -51,7 +51,33 @@ void read_top_level(const CaseTable& top, CaseReading& reading) {
   setup.cfl = top.number("cfl").value_or(setup.cfl);
   setup.alpha_min = top.number("alpha_min").value_or(setup.alpha_min);
   setup.max_steps = top.integer("max_steps");
-  top.table("scheme", keys_of("[scheme]"));
+}
+
+/// What `accuracy` stands for: choices on the measured front of error against time, see cases/README.md.
+Scheme scheme_for(std::string_view accuracy) {
+  if (accuracy == "fast") return {.order = 1, .interface = InterfaceTreatment::diffuse};
+  if (accuracy == "accurate") return {.order = 2, .interface = InterfaceTreatment::sharp};
+  return {};
+}
+
+void read_scheme(const CaseTable& top, CaseReading& reading) {
+  Scheme& scheme = reading.setup.scheme;
+  if (const auto table = top.table("scheme", keys_of("[scheme]"))) {
+    if (const auto accuracy = table->text("accuracy")) scheme = scheme_for(*accuracy);
+    scheme.order = static_cast<int>(table->integer("order").value_or(scheme.order));
+    if (const auto name = table->text("interface"))
+      scheme.interface = *name == "sharp"        ? InterfaceTreatment::sharp
+                         : *name == "compressed" ? InterfaceTreatment::compressed
+                                                 : InterfaceTreatment::diffuse;
+    if (const auto name = table->text("limiter")) scheme.limited = *name != "none";
+    if (const auto name = table->text("low_mach")) scheme.low_mach = *name == "on";
+  }
+  if (reading.setup.alpha_min > 0 && scheme.interface != InterfaceTreatment::diffuse)
+    reading.mistakes.add(
+        top.where("alpha_min"),
+        fmt::format("alpha_min = {} with sharp or compressed interfaces; allowed: 0, or interface = \"diffuse\" in "
+                    "[scheme]",
+                    reading.setup.alpha_min));
 }
 
 }  // namespace
@@ -62,6 +88,7 @@ Setup read_case(const std::string& file, const CaseOverrides& overrides) {
   reading.setup.case_file = file;
   const CaseTable top(document, Place{1, {}}, keys_of("the case"), reading.mistakes);
   read_top_level(top, reading);
+  read_scheme(top, reading);
   read_mesh_keys(top, reading);
   read_phases(top, reading);
   read_contacts(top, reading);

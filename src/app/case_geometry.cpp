@@ -30,7 +30,14 @@ class GeometryCheck {
     }
     for (const ProbeSetup& probe : setup_.probes) check(probe.at, fmt::format("probe \"{}\": at", probe.name));
     for (const IntegralSetup& integral : setup_.integrals) {
-      const Axis axis = std::visit([](const auto& what) { return what.axis; }, integral.what);
+      if (const auto* mean = std::get_if<Mean>(&integral.what)) {
+        where_ = mean->where + ": ";
+        std::visit([this](const auto& shape) { check(shape); }, mean->region);
+        where_ = setup_.case_file + ": ";
+        continue;
+      }
+      const auto* extent = std::get_if<Extent>(&integral.what);
+      const Axis axis = extent ? extent->axis : std::get<Quantile>(integral.what).axis;
       if (plane_ && axis == Axis::z)
         add(fmt::format("integral \"{}\": axis = \"z\" in a plane scene; allowed: x, y, radial", integral.name));
     }

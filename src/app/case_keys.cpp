@@ -6,6 +6,7 @@
 #include <cassert>
 #include <utility>
 
+#include "app/output_fields.hpp"
 #include "physics/eos.hpp"
 #include "physics/hyperelastic_material.hpp"
 #include "physics/material_library.hpp"
@@ -95,7 +96,8 @@ std::vector<KeyTable> top_level() {
          .unit = "-",
          .range = {1e-12, 0.1, true, true, true},
          .fallback = fmt::format("{}", defaults.alpha_min),
-         .meaning = "0: a phase is absent where it is not; else traces of every phase everywhere"},
+         .meaning = "0: a phase is absent where it is not; else traces of every phase everywhere, of diffuse "
+                    "interfaces only"},
         {.key = "max_steps",
          .kind = KeyKind::integer,
          .range = from(1, 1e15),
@@ -121,13 +123,36 @@ std::vector<KeyTable> top_level() {
         {.key = "integral", .kind = KeyKind::tables, .fallback = "none", .meaning = "columns of history.csv"}}});
   tables.push_back(
       {"[mesh_parameters]", "", {{.key = "NAME", .meaning = "a number the .geo names in DefineConstant"}}});
-  tables.push_back({"[scheme]",
-                    "",
-                    {{.key = "order",
-                      .kind = KeyKind::integer,
-                      .range = one_only,
-                      .fallback = "1",
-                      .meaning = "order in space and time"}}});
+  tables.push_back(
+      {"[scheme]",
+       "",
+       {{.key = "accuracy",
+         .kind = KeyKind::word,
+         .words = {"fast", "balanced", "accurate"},
+         .fallback = "balanced",
+         .meaning = "fast: order 1, diffuse; balanced: order 2, diffuse; accurate: order 2, sharp. The keys "
+                    "below replace single choices"},
+        {.key = "order",
+         .kind = KeyKind::integer,
+         .range = {1, 2, true, true},
+         .fallback = fmt::format("{}", defaults.scheme.order),
+         .meaning = "order in space and time"},
+        {.key = "interface",
+         .kind = KeyKind::word,
+         .words = {"sharp", "compressed", "diffuse"},
+         .fallback = "diffuse",
+         .meaning = "sharp: a plane in every cell that an interface crosses, bodies slide on any mesh; "
+                    "compressed: thin, for films and splashes; diffuse: mixtures, as in the paper"},
+        {.key = "limiter",
+         .kind = KeyKind::word,
+         .words = {"monotone", "none"},
+         .fallback = "monotone",
+         .meaning = "of order 2"},
+        {.key = "low_mach",
+         .kind = KeyKind::word,
+         .words = {"on", "off"},
+         .fallback = defaults.scheme.low_mach ? "on" : "off",
+         .meaning = "less acoustic dissipation where the flow is slow and the pressure smooth"}}});
   return tables;
 }
 
@@ -287,7 +312,7 @@ void add_boundaries_and_output(std::vector<KeyTable>& tables) {
          .meaning = "number of outputs"},
         {.key = "fields",
          .kind = KeyKind::words,
-         .words = {"alpha", "density", "velocity", "pressure", "stress", "cobasis", "energy"},
+         .words = all_output_fields(),
          .fallback = "alpha, density, velocity, pressure, stress",
          .meaning = "of each phase, and of the mixture"},
         {.key = "precision",
@@ -315,15 +340,21 @@ void add_boundaries_and_output(std::vector<KeyTable>& tables) {
   tables.push_back({"[[probe]]",
                     "",
                     {name, {.key = "at", .kind = KeyKind::point, .unit = "m", .required = true, .meaning = "point"}}});
-  tables.push_back(
-      {"[[integral]]",
-       "extent or quantile",
-       {name,
-        {.key = "extent", .kind = KeyKind::table, .fallback = "quantile", .meaning = "farthest coordinate of a phase"},
-        {.key = "quantile",
-         .kind = KeyKind::table,
-         .fallback = "extent",
-         .meaning = "coordinate that holds a fraction of it"}}});
+  tables.push_back({"[[integral]]",
+                    "extent, quantile or mean",
+                    {name,
+                     {.key = "extent",
+                      .kind = KeyKind::table,
+                      .fallback = "quantile or mean",
+                      .meaning = "farthest coordinate of a phase"},
+                     {.key = "quantile",
+                      .kind = KeyKind::table,
+                      .fallback = "extent or mean",
+                      .meaning = "coordinate that holds a fraction of it"},
+                     {.key = "mean",
+                      .kind = KeyKind::table,
+                      .fallback = "extent or quantile",
+                      .meaning = "of a field over a region, by volume; of a phase's field by the phase's volume"}}});
   const KeyInfo phase{.key = "phase", .kind = KeyKind::text, .required = true, .meaning = "name of a phase"};
   const KeyInfo axis{.key = "axis",
                      .kind = KeyKind::word,
@@ -341,6 +372,21 @@ void add_boundaries_and_output(std::vector<KeyTable>& tables) {
        {phase,
         {.key = "fraction", .unit = "-", .range = fraction, .required = true, .meaning = "of the phase's volume"},
         axis}});
+  tables.push_back({"mean",
+                    "",
+                    {{.key = "field",
+                      .kind = KeyKind::text,
+                      .required = true,
+                      .meaning = "a column as in tables: pressure.copper of a phase, stress.xx of the mixture"},
+                     {.key = "box",
+                      .kind = KeyKind::table,
+                      .fallback = "the whole mesh",
+                      .meaning = "region; cells are cut by it"}}});
+  tables.push_back(
+      {"box",
+       "of a mean; with 2 numbers: of any z (plane only)",
+       {{.key = "low", .kind = KeyKind::point, .unit = "m", .required = true, .meaning = "smallest coordinates"},
+        {.key = "high", .kind = KeyKind::point, .unit = "m", .required = true, .meaning = "largest coordinates"}}});
 }
 
 }  // namespace

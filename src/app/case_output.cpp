@@ -1,10 +1,13 @@
 // [output], [[line]], [[probe]], [[integral]].
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
 #include "app/case_parts.hpp"
+#include "app/output_fields.hpp"
+#include "math/suggestion.hpp"
 
 namespace cobasis {
 namespace {
@@ -39,14 +42,57 @@ int phase_of(const CaseTable& table, CaseReading& reading) {
   return name ? reading.phase(*name, table.where("phase")).value_or(0) : 0;
 }
 
+/// Columns that tables of this case can have, and their units.
+std::vector<std::pair<std::string, std::string>> columns_of(const std::vector<PhaseSetup>& phases) {
+  Snapshot empty;
+  for (const PhaseSetup& phase : phases) {
+    empty.phases.emplace_back();
+    empty.phases.back().name = phase.name;
+    empty.phases.back().is_void = phase.is_void();
+    empty.phases.back().is_solid = phase.is_solid();
+  }
+  const Mixture mixture;
+  std::vector<std::pair<std::string, std::string>> columns;
+  for (const OutputField& field : output_fields(all_output_fields(), empty, mixture))
+    for (std::size_t c = 0; c < field.values.size(); ++c) columns.emplace_back(field.column(c), field.unit);
+  return columns;
+}
+
+IntegralSetup read_mean(const CaseTable& table, const std::string& name, CaseReading& reading) {
+  IntegralSetup integral{name, Mean{table.text("field").value_or(""), Everywhere{}, {}}, {}};
+  Mean& mean = std::get<Mean>(integral.what);
+  mean.where = reading.mistakes.where(table.where());
+  const auto columns = columns_of(reading.setup.phases);
+  const auto found = std::ranges::find(columns, mean.field, &std::pair<std::string, std::string>::first);
+  if (found != columns.end()) {
+    integral.unit = found->second;
+  } else if (table.text("field")) {
+    std::vector<std::string> names;
+    for (const auto& [column, unit] : columns) names.push_back(column);
+    reading.mistakes.add(table.where("field"),
+                         fmt::format("field = \"{}\"; {}", mean.field, allowed_names(mean.field, names)));
+  }
+  if (const auto box = table.table("box", keys_of("box"))) {
+    const auto low = box->point("low"), high = box->point("high");
+    if (low && high) {
+      mean.region = Box{*low, *high};
+      if (!(low->x < high->x && low->y < high->y && low->z <= high->z))
+        reading.mistakes.add(box->where("high"),
+                             "box with high not above low; allowed: low < high in every coordinate");
+    }
+  }
+  return integral;
+}
+
 IntegralSetup read_integral(CaseTable& table, const std::string& name, CaseReading& reading) {
-  table.at_most_one({"extent", "quantile"});
+  table.at_most_one({"extent", "quantile", "mean"});
   if (const auto extent = table.table("extent", keys_of("extent")))
     return {name, Extent{phase_of(*extent, reading), extent->number("alpha").value_or(0), axis_of(*extent)}};
   if (const auto quantile = table.table("quantile", keys_of("quantile")))
     return {name, Quantile{phase_of(*quantile, reading), quantile->number("fraction").value_or(0), axis_of(*quantile)}};
-  if (!table.has("extent") && !table.has("quantile"))
-    reading.mistakes.add(table.where(), "neither extent nor quantile; allowed: one of them");
+  if (const auto mean = table.table("mean", keys_of("mean"))) return read_mean(*mean, name, reading);
+  if (!table.has("extent") && !table.has("quantile") && !table.has("mean"))
+    reading.mistakes.add(table.where(), "neither extent nor quantile nor mean; allowed: one of them");
   return {name, Extent{}};
 }
 

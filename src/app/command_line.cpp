@@ -14,7 +14,7 @@ namespace {
 
 using Command = CommandLine::Command;
 
-const std::vector<std::string> commands{"run", "check", "info", "help", "--help", "-h", "--version"};
+const std::vector<std::string> commands{"run", "check", "study", "info", "help", "--help", "-h", "--version"};
 
 /// At the first = outside quotes, which a key may need: boundary."a=b".
 std::pair<std::string, std::string> key_and_value(const std::string& text) {
@@ -72,6 +72,33 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
   add_set(run);
   CLI::App* check = add("check", "validate a case and its mesh, and say what the scene requires", "CASE", "case file");
   add_set(check);
+  CLI::App* study =
+      add("study",
+          "compute a case on a sequence of meshes: its integrals and probes with error bars, their order, "
+          "and what an accuracy costs",
+          "CASE", "case file");
+  study->add_option("--meshes", line.study.meshes, "how many; the finest is the case's own")
+      ->check(CLI::Range(3, 8))
+      ->type_name("N")
+      ->capture_default_str();
+  study->add_option("--ratio", line.study.ratio, "of the sizes of cells of two meshes")
+      ->check(CLI::Range(1.2, 4.0))
+      ->type_name("R")
+      ->capture_default_str();
+  study
+      ->add_option("--refine", line.study.refine,
+                   "which mesh_parameters make the mesh finer, with commas: NAME is a count, 1/NAME a size; or split: "
+                   "Gmsh cuts every cell, and the case's mesh is the coarsest. Default: n, else 1/h")
+      ->type_name("NAMES");
+  study->add_option("--accuracy", line.study.accuracies, "relative accuracies to foretell the cost of, with commas")
+      ->check(CLI::Range(1e-12, 1.0))
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("A,B")
+      ->default_str("1e-2,1e-3,1e-4");
+  study->add_option("--output", line.overrides.output, "directory; default: the case's and -study")->type_name("DIR");
+  study->add_flag("--quiet", line.quiet, "no progress and no tables, only the last line");
+  add_set(study);
   add("info", "cells, groups and quality of a mesh", "MESH", "mesh file (.geo, .msh)");
   CLI::App* help =
       app.add_subcommand("help", "help case: every key of a case file, its unit, default and allowed range");
@@ -103,7 +130,10 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
     line.text = describe_case_keys();
     return line;
   }
-  line.command = command == run ? Command::run : command == check ? Command::check : Command::info;
+  line.command = command == run     ? Command::run
+                 : command == check ? Command::check
+                 : command == study ? Command::study
+                                    : Command::info;
   sort_out_settings(line, settings);
   if (line.file.empty())
     throw InputError(fmt::format("cobasis {}: no file; allowed: cobasis {} {}", command->get_name(),

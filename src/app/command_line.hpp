@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/case.hpp"
+#include "app/study_meshes.hpp"
 
 namespace cobasis {
 
@@ -12,6 +13,7 @@ struct CommandLine {
   enum class Command {
     run,    ///< the case `file`
     check,  ///< the case `file`
+    study,  ///< the case `file` on meshes of different size
     info,   ///< on the mesh `file`
     print   ///< `text`, and be done: help, version, the keys of a case
   };
@@ -20,6 +22,7 @@ struct CommandLine {
   CaseOverrides overrides;
   bool trust_geo = false;  ///< let a .geo run commands and read other files
   bool quiet = false;
+  StudyOptions study;
   std::string text;
 };
 

@@ -1,12 +1,19 @@
 #include "app/integrals.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <type_traits>
 #include <utility>
 
+#include "app/output_fields.hpp"
+#include "app/sampler.hpp"
+#include "math/errors.hpp"
 #include "math/field_info.hpp"
+#include "solver/cut_cell.hpp"
 
 namespace cobasis {
 namespace {
@@ -42,25 +49,48 @@ double coordinate(const Point& x, Axis axis, Geometry geometry) {
   return geometry == Geometry::plane ? std::abs(x.y) : std::sqrt(x.x * x.x + x.y * x.y);
 }
 
-Integrals::Integrals(std::vector<IntegralSetup> setups, Geometry geometry, const Mesh& mesh, const Mpi& mpi)
+Integrals::Integrals(std::vector<IntegralSetup> setups, Geometry geometry, const Mesh& mesh, const Mpi& mpi,
+                     std::vector<PhaseSetup> phases)
     : setups_(std::move(setups)),
       geometry_(geometry),
       mesh_(mesh),
       mpi_(mpi),
-      exchange_(mpi, mesh.neighbours, halo_sizes(mesh), message_tag) {}
+      exchange_(mpi, mesh.neighbours, halo_sizes(mesh), message_tag),
+      phases_(std::move(phases)) {
+  for (const IntegralSetup& setup : setups_) regions_.push_back(region_of(setup));
+}
+
+Integrals::Region Integrals::region_of(const IntegralSetup& setup) const {
+  Region region;
+  const auto* mean = std::get_if<Mean>(&setup.what);
+  if (!mean) return region;
+  for (std::int32_t i = 0; i < mesh_.n_owned; ++i) {
+    const double fraction = inside_fraction(mean->region, mesh_, i);
+    if (fraction == 0) continue;
+    region.cells.push_back(i);
+    region.volumes.push_back(fraction * mesh_.volume[i]);
+  }
+  if (!mpi_.any(!region.cells.empty()))
+    throw InputError(
+        fmt::format("{}: integral \"{}\": the box lies outside the mesh; allowed: one that holds part of it",
+                    mean->where, setup.name));
+  return region;
+}
 
 std::vector<double> Integrals::evaluate(const Snapshot& snapshot) {
   std::vector<double> results;
-  for (const IntegralSetup& setup : setups_) {
+  for (std::size_t i = 0; i < setups_.size(); ++i) {
     results.push_back(std::visit(
         [&](const auto& what) {
           if constexpr (std::is_same_v<std::decay_t<decltype(what)>, Extent>) {
             return evaluate(what, alpha_with_halo(snapshot, what.phase));
+          } else if constexpr (std::is_same_v<std::decay_t<decltype(what)>, Mean>) {
+            return evaluate(what, regions_[i], snapshot);
           } else {
             return evaluate(what, snapshot.phases[what.phase].alpha);
           }
         },
-        setup.what));
+        setups_[i].what));
   }
   return results;
 }
@@ -131,7 +161,9 @@ double Integrals::evaluate(const Quantile& quantile, const std::vector<double>& 
   const auto excess_below = [&](double x) {
     for (std::size_t i = 0; i < ranges.size(); ++i) {
       const Range& range = ranges[i];
-      volumes[i] = x <= range.low ? 0 : x >= range.high ? range.volume : (x - range.low) / (range.high - range.low) * range.volume;
+      volumes[i] = x <= range.low    ? 0
+                   : x >= range.high ? range.volume
+                                     : (x - range.low) / (range.high - range.low) * range.volume;
     }
     return mpi_.exact_sum(volumes) / total - quantile.fraction;
   };
@@ -155,6 +187,26 @@ double Integrals::evaluate(const Quantile& quantile, const std::vector<double>& 
     }
   }
   return 0.5 * (low + high);
+}
+
+double Integrals::evaluate(const Mean& mean, const Region& region, const Snapshot& snapshot) const {
+  const Snapshot here = extract(snapshot, region.cells);
+  const Mixture mixture = mix(here, phases_);
+  for (const OutputField& field : output_fields(all_output_fields(), here, mixture)) {
+    for (std::size_t c = 0; c < field.values.size(); ++c) {
+      if (field.column(c) != mean.field) continue;
+      std::vector<double> weights = region.volumes, products;
+      for (std::size_t i = 0; i < weights.size(); ++i) {
+        if (!field.presence.empty()) weights[i] *= field.presence[i];
+        products.push_back(weights[i] * field.values[c][i]);
+      }
+      const double total = mpi_.exact_sum(weights);
+      const double sum = mpi_.exact_sum(products);
+      return total > 0 ? sum / total : nowhere;
+    }
+  }
+  assert(false);  // the reader of the case knows the fields
+  return nowhere;
 }
 
 }  // namespace cobasis

@@ -54,7 +54,7 @@ Output::Output(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
       mpi_(mpi),
       stem_(std::filesystem::path(setup.case_file).stem().string()),
       vtu_(mesh, setup.output.float64),
-      integrals_(setup.integrals, geometry, mesh, mpi),
+      integrals_(setup.integrals, geometry, mesh, mpi, setup.phases),
       latest_integrals_(setup.integrals.size(), std::numeric_limits<double>::quiet_NaN()) {
   check_table_names(setup);
   try {
@@ -124,10 +124,21 @@ void Output::write_line(Table& line, const Snapshot& snapshot, const std::string
   });
 }
 
+bool Output::needs_fields_for_history() const {
+  const auto is_mean = [](const IntegralSetup& integral) { return std::holds_alternative<Mean>(integral.what); };
+  return !setup_.probes.empty() || std::any_of(setup_.integrals.begin(), setup_.integrals.end(), is_mean);
+}
+
 void Output::history(const Snapshot& snapshot, const std::vector<Column>& totals) {
   if (!setup_.integrals.empty()) latest_integrals_ = integrals_.evaluate(snapshot);
   std::vector<Samples> samples;
   for (const Table& probe : probes_) samples.push_back(sample(probe, snapshot));
+  latest_.clear();
+  for (std::size_t i = 0; i < setup_.integrals.size(); ++i)
+    latest_.push_back({setup_.integrals[i].name, setup_.integrals[i].unit, latest_integrals_[i]});
+  for (std::size_t p = 0; p < probes_.size() && mpi_.root(); ++p)
+    for (std::size_t c = 0; c < samples[p].columns.size(); ++c)
+      latest_.push_back({probes_[p].name + "." + samples[p].columns[c], samples[p].units[c], samples[p].rows[c]});
   together([&] {
     if (!mpi_.root()) return;
     Units columns = {{"step", "1"}, {"time", "s"}, {"dt", "s"}};
@@ -136,7 +147,7 @@ void Output::history(const Snapshot& snapshot, const std::vector<Column>& totals
       columns.emplace_back(total.name, total.unit);
       row.push_back(total.value);
     }
-    for (const IntegralSetup& integral : setup_.integrals) columns.emplace_back(integral.name, "m");
+    for (const IntegralSetup& integral : setup_.integrals) columns.emplace_back(integral.name, integral.unit);
     row.insert(row.end(), latest_integrals_.begin(), latest_integrals_.end());
     if (!history_) {
       add_units("history", columns);
@@ -179,7 +190,7 @@ Output::Samples Output::sample(const Table& table, const Snapshot& snapshot) con
   const Snapshot here = extract(snapshot, table.sampler.cells());
   const Mixture mixture = mix(here, setup_.phases);
   const auto fields = output_fields(setup_.output.fields, here, mixture);
-  return {columns_of(fields), table.sampler.in_order(mpi_, rows_of(fields))};
+  return {columns_of(fields), units_of(fields), table.sampler.in_order(mpi_, rows_of(fields))};
 }
 
 void Output::add_units(const std::string& where, const Units& units) {

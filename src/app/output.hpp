@@ -43,9 +43,11 @@ class Output {
   void finish();
 
   bool needs_alpha_for_history() const { return !setup_.integrals.empty() || !setup_.probes.empty(); }
-  bool needs_fields_for_history() const { return !setup_.probes.empty(); }
-  /// The latest value of an [[integral]] [m].
+  bool needs_fields_for_history() const;
+  /// The latest value of an [[integral]], in its unit.
   double integral(const std::string& name) const;
+  /// The latest values of the [[integral]]s and, on rank 0, of the [[probe]]s: `gauge.pressure.copper`.
+  const std::vector<Column>& latest() const { return latest_; }
 
  private:
   struct Table {
@@ -56,7 +58,7 @@ class Output {
   };
   using Units = std::vector<std::pair<std::string, std::string>>;  ///< column, unit
   struct Samples {
-    std::vector<std::string> columns;
+    std::vector<std::string> columns, units;
     std::vector<double> rows;  ///< on rank 0, points in order
   };
 
@@ -75,6 +77,7 @@ class Output {
   VtuWriter vtu_;
   Integrals integrals_;
   std::vector<double> latest_integrals_;
+  std::vector<Column> latest_;
   std::vector<Table> lines_, probes_;
   std::vector<std::pair<double, std::string>> outputs_;  ///< time, path of the .pvtu
   std::optional<RowFile> history_;                       ///< rank 0

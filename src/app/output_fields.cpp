@@ -22,6 +22,12 @@ OutputField field(const char* name, const char* unit, const std::vector<double>&
 
 }  // namespace
 
+const std::vector<std::string>& all_output_fields() {
+  static const std::vector<std::string> names = {"alpha",  "density", "velocity", "pressure",
+                                                 "stress", "cobasis", "energy"};
+  return names;
+}
+
 std::vector<OutputField> output_fields(const std::vector<std::string>& chosen, const Snapshot& snapshot,
                                        const Mixture& mixture) {
   const auto wanted = [&](const char* name) { return std::find(chosen.begin(), chosen.end(), name) != chosen.end(); };

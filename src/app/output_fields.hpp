@@ -24,6 +24,9 @@ struct OutputField {
   }
 };
 
+/// Every field that can be chosen.
+const std::vector<std::string>& all_output_fields();
+
 /// The chosen fields (of: alpha density velocity pressure stress cobasis energy), phases in order, then the mixture's.
 /// alpha is left out of a scene of one phase; what a phase does not have is left out. The same list on every rank.
 std::vector<OutputField> output_fields(const std::vector<std::string>& chosen, const Snapshot& snapshot,

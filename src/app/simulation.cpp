@@ -19,27 +19,13 @@
 namespace cobasis {
 namespace {
 
-struct Scene {
-  Setup setup;
-  Geometry geometry;
-  Mesh mesh;
-};
+class Timer {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
-Scene open_scene(const CommandLine& command, const Mpi& mpi) {
-  Scene scene{read_case(command.file, command.overrides), Geometry::plane, {}};
-  const Setup& setup = scene.setup;
-  MeshRequest request;
-  request.file = setup.mesh_file;
-  request.parameters = setup.mesh_parameters;
-  request.trust_geo = command.trust_geo;
-  request.dimension = !setup.scene ? 0 : *setup.scene == Geometry::plane ? 2 : 3;
-  request.periodic = periodic_pairs(setup);
-  request.cell_weight = [&setup](const Point& x, const std::string& region) { return cell_cost(setup, x, region); };
-  scene.mesh = read_mesh(request, mpi);
-  scene.geometry = scene.mesh.dimension == 2 ? Geometry::plane : Geometry::space;
-  check_for_geometry(setup, scene.geometry);
-  return scene;
-}
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 /// Counts down to the next multiple of an interval, and never misses the end.
 class Schedule {
@@ -80,6 +66,17 @@ std::string describe(const Scene& scene, const Solver& solver) {
   std::string text =
       fmt::format("{}\n{} scene, {} cells, {} equations per cell\n", scene.setup.title,
                   scene.geometry == Geometry::plane ? "plane" : "space", scene.mesh.n_global, solver.equations());
+  const Scheme& scheme = scene.setup.scheme;
+  const bool interfaces = solver.fields().multiphase();
+  text += fmt::format("  scheme: order {}{}{}, low_mach {}\n", scheme.order,
+                      scheme.order == 1 ? ""
+                      : scheme.limited  ? ", limited"
+                                        : ", not limited",
+                      !interfaces                                          ? ""
+                      : scheme.interface == InterfaceTreatment::sharp      ? ", sharp interfaces"
+                      : scheme.interface == InterfaceTreatment::compressed ? ", compressed interfaces"
+                                                                           : ", diffuse interfaces",
+                      scheme.low_mach ? "on" : "off");
   for (int k = 0; k < solver.fields().n_phases(); ++k) {
     const Phase& phase = solver.fields().phases[k];
     if (phase.is_void) {
@@ -109,22 +106,39 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-void run_case(const CommandLine& command, const Mpi& mpi) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  const Scene scene = open_scene(command, mpi);
+Scene open_scene(const Setup& setup, bool trust_geo, int splits, const Mpi& mpi) {
+  const Timer timer;
+  Scene scene{setup, Geometry::plane, {}, 0};
+  MeshRequest request;
+  request.file = setup.mesh_file;
+  request.parameters = setup.mesh_parameters;
+  request.trust_geo = trust_geo;
+  request.splits = splits;
+  request.dimension = !setup.scene ? 0 : *setup.scene == Geometry::plane ? 2 : 3;
+  request.periodic = periodic_pairs(setup);
+  request.cell_weight = [&setup](const Point& x, const std::string& region) { return cell_cost(setup, x, region); };
+  scene.mesh = read_mesh(request, mpi);
+  scene.geometry = scene.mesh.dimension == 2 ? Geometry::plane : Geometry::space;
+  check_for_geometry(setup, scene.geometry);
+  scene.seconds = timer.seconds();
+  return scene;
+}
+
+RunResult run_scene(const Scene& scene, const Mpi& mpi, Speech speech) {
+  const Timer timer;
   const Setup& setup = scene.setup;
   Solver solver(setup, scene.geometry, scene.mesh, mpi);
   Output output(setup, scene.geometry, scene.mesh, mpi);
-  const bool speaks = mpi.root() && !command.quiet;
-  if (speaks) {
+  if (mpi.root() && speech == Speech::all) {
     for (const std::string& notice : scene.mesh.notices) std::cerr << "cobasis: " << notice << '\n';
     std::cout << describe(scene, solver) << std::flush;
   }
 
+  RunResult result;
   const double interval = setup.output.every.value_or(setup.end_time / setup.output.count.value_or(20));
   Schedule outputs(interval, setup.end_time), rows(setup.end_time / 1000, setup.end_time);
-  Progress progress(std::cout, mpi.root() ? progress_style(command.quiet) : ProgressStyle::silent);
+  Progress progress(std::cout, mpi.root() ? progress_style(speech == Speech::last_line || speech == Speech::nothing)
+                                          : ProgressStyle::silent);
   const auto cost = [&] {
     const double evaluations =
         static_cast<double>(scene.mesh.n_global) * solver.equations() * static_cast<double>(solver.step());
@@ -134,9 +148,12 @@ void run_case(const CommandLine& command, const Mpi& mpi) {
     const double time = solver.time();
     if (outputs.due(time) || last) output.write(solver.snapshot());
     const bool row = setup.history_every ? solver.step() % *setup.history_every == 0 : rows.due(time);
-    if (row || last)
-      output.history(solver.snapshot(output.needs_fields_for_history() ? Solver::Content::all : Solver::Content::alpha),
-                     solver.totals());
+    if (!row && !last) return;
+    const Timer writing;
+    output.history(solver.snapshot(output.needs_fields_for_history() ? Solver::Content::all : Solver::Content::alpha),
+                   solver.totals());
+    ++result.rows;
+    result.history_seconds += writing.seconds();
   };
 
   const std::vector<Column> initial = solver.totals();
@@ -147,9 +164,9 @@ void run_case(const CommandLine& command, const Mpi& mpi) {
   while (!done()) {
     solver.advance(outputs.next());
     write_due(done());
-    progress.update({solver.time(), setup.end_time, solver.step(), seconds(), cost()});
+    progress.update({solver.time(), setup.end_time, solver.step(), timer.seconds(), cost()});
   }
-  progress.finish({solver.time(), setup.end_time, solver.step(), seconds(), cost()});
+  progress.finish({solver.time(), setup.end_time, solver.step(), timer.seconds(), cost()});
   output.finish();
 
   const double mixed = solver.mixed_share();
@@ -157,22 +174,41 @@ void run_case(const CommandLine& command, const Mpi& mpi) {
   const std::int64_t exchanges = mpi.sum(solver.exchange_counters().exchanges),
                      kept = mpi.sum(solver.exchange_counters().kept), dust = mpi.sum(solver.exchange_counters().dust);
   const double exchanged_volume = solver.exchanged_volume();
-  if (!mpi.root()) return;
-  if (!command.quiet) {
+  const RobustnessCounters robustness = solver.robustness();
+  result.steps = solver.step();
+  result.step_seconds = solver.clock().total;
+  result.other_seconds = scene.seconds + timer.seconds() - result.step_seconds - result.history_seconds;
+  result.values = output.latest();
+  if (!mpi.root() || speech == Speech::progress || speech == Speech::nothing) return result;
+  if (speech == Speech::all) {
     std::cout << fmt::format("volume exchange: {} exchanges of {:.6g} m^3 in all, {} kept, {} dust\n", exchanges,
                              exchanged_volume, kept, dust);
+    if (setup.scheme.order == 2)
+      std::cout << fmt::format("second order: fell back to the first in {:.3g} % of the reconstructions\n",
+                               100 * robustness.fallback_share);
+    if (robustness.mended + robustness.followed > 0)
+      std::cout << fmt::format(
+          "fragments: {} averaged with a neighbour, {} without a state of their own, summed over "
+          "steps\n",
+          robustness.mended, robustness.followed);
     for (const IntegralSetup& integral : setup.integrals)
-      std::cout << fmt::format("{} = {:.6g} m\n", integral.name, output.integral(integral.name));
+      std::cout << fmt::format("{} = {:.6g} {}\n", integral.name, output.integral(integral.name), integral.unit);
   }
   std::cout << fmt::format(
       "cobasis: steps={} time={:.9g} cells={} mixed={:.2f}% seconds={:.3f} pack={:.1f}% "
       "ns_per_cell_equation_evaluation={:.3f} mass_error={:.2e}\n",
       solver.step(), solver.time(), scene.mesh.n_global, 100 * mixed, solver.clock().total,
       solver.clock().total > 0 ? 100 * solver.clock().kernels / solver.clock().total : 0, cost(), error);
+  return result;
+}
+
+void run_case(const CommandLine& command, const Mpi& mpi) {
+  const Setup setup = read_case(command.file, command.overrides);
+  run_scene(open_scene(setup, command.trust_geo, 0, mpi), mpi, command.quiet ? Speech::last_line : Speech::all);
 }
 
 void check_case(const CommandLine& command, const Mpi& mpi) {
-  const Scene scene = open_scene(command, mpi);
+  const Scene scene = open_scene(read_case(command.file, command.overrides), command.trust_geo, 0, mpi);
   Solver solver(scene.setup, scene.geometry, scene.mesh, mpi);
   solver.advance(scene.setup.end_time);  // the first step also touches memory for the first time
   const double warm_up = solver.clock().total;

@@ -17,6 +17,12 @@ std::vector<std::string> columns_of(const std::vector<OutputField>& fields) {
   return names;
 }
 
+std::vector<std::string> units_of(const std::vector<OutputField>& fields) {
+  std::vector<std::string> units;
+  for (const OutputField& field : fields) units.insert(units.end(), field.values.size(), field.unit);
+  return units;
+}
+
 std::vector<double> rows_of(const std::vector<OutputField>& fields) {
   const std::size_t n = fields.empty() ? 0 : fields.front().values.front().size();
   std::vector<double> rows;

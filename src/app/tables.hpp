@@ -16,6 +16,7 @@ std::string csv_row(std::span<const double> values);
 
 /// The columns of the fields, components as suffixes.
 std::vector<std::string> columns_of(const std::vector<OutputField>& fields);
+std::vector<std::string> units_of(const std::vector<OutputField>& fields);  ///< of the same columns
 
 /// The fields cell by cell; NaN for a phase where it is absent. [cell][column]
 std::vector<double> rows_of(const std::vector<OutputField>& fields);

@@ -202,6 +202,10 @@ std::string logged_errors() {
   return errors;
 }
 
+void split(int times) {
+  for (int i = 0; i < times; ++i) mesh_api::refine();
+}
+
 /// In the child: Gmsh opens the file, meshes it if it is a script, and hands over what the solver needs.
 RawMesh work_in_gmsh(const MeshRequest& request, bool script) {
   std::vector<std::string> arguments{"cobasis"};
@@ -214,10 +218,14 @@ RawMesh work_in_gmsh(const MeshRequest& request, bool script) {
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::logger::start();
     gmsh::open(request.file);
-    if (!script) return extract(request.dimension > 0 ? request.dimension : dimension_of_elements(), false);
+    if (!script) {
+      split(request.splits);
+      return extract(request.dimension > 0 ? request.dimension : dimension_of_elements(), false);
+    }
 
     const int dimension = request.dimension > 0 ? request.dimension : std::max(2, gmsh::model::getDimension());
     mesh_api::generate(dimension);
+    split(request.splits);
     if (const std::string errors = logged_errors(); !errors.empty()) throw InputError(errors);
     double save_all = 0;
     gmsh::option::getNumber("Mesh.SaveAll", save_all);
@@ -246,7 +254,7 @@ RawMesh read_gmsh(const MeshRequest& request) {
       throw InputError(
           fmt::format("{}: mesh parameters ('{}') need a .geo", request.file, request.parameters.begin()->first));
     // Gmsh needs up to ten times the file (measured), we as much again; a damaged count asks for far more.
-    limits.extra_memory = (std::size_t{2} << 30) + 60 * check_msh(request.file);
+    limits.extra_memory = (std::size_t{2} << 30) + (std::size_t{60} << (3 * request.splits)) * check_msh(request.file);
     limits.no_side_effects = true;
   }
   const ChildResult result = run_in_child(

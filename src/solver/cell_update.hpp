@@ -76,51 +76,100 @@ COBASIS_KERNEL double largest_step(const Faces& faces, const AlignedVector<doubl
 }
 
 /// Advances a phase in the listed owned cells by dt. Mixed: the volume fraction changes too, and contacts do work.
+///
+/// Cobasis: alpha de = -dt/V sum A {u (e_f - e) + n (e·(u* - u_cell))}, outward n. `centring` = 1/2 takes e on the
+/// right-hand side at mid-step, 0 at its beginning.
 template <class G, Kind K, class Real, bool Mixed>
 COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volume, Phase& phase, const CellList& cells,
-                           std::int32_t n, double dt) {
+                           std::int32_t n, double dt, double centring) {
   using L = Layout<G, K>;
+  constexpr int D = G::dimension;
   const std::int32_t first_mixed = first_mixed_slot(faces);
   for (std::int32_t i = 0; i < n; i += lanes<Real>) {
     const Indices<Real> at = load_indices<Real>(&cells[i]);
     std::array<Real, L::n_conserved> change;
     change.fill(Real(0.0));
-    Real alpha_gain(0.0);
+    Real alpha_gain(0.0), moved(0.0);
+    std::array<Real, L::n_cobasis> e;
+    std::array<Real, D> u;
+    std::array<std::array<Real, D>, D> deformation;  // sum A n (u* - u_cell)
+    if constexpr (K == Kind::solid) {
+      for (int c = 0; c < L::n_cobasis; ++c) e[c] = gather<Real>(phase.conserved[L::cobasis + c].data(), at);
+      for (int d = 0; d < D; ++d) u[d] = gather<Real>(phase.primitive[L::u + d].data(), at);
+      for (auto& row : deformation) row.fill(Real(0.0));
+    }
     for (int j = 0; j < faces.max_cell_faces; ++j) {
       const Indices<Real> entry = lookup<Real>(&faces.cell_faces[static_cast<std::size_t>(j) * faces.cell_stride], at);
-      Indices<Real> flux_at, cobasis_at, gain_at;
+      Indices<Real> face, flux_at, gain_at;
       std::array<double, lanes<Real>> sign;
       for (int k = 0; k < lanes<Real>; ++k) {
-        const std::int32_t slot = phase.lists.slot_of_face[entry[k] >> 1], side = entry[k] & 1;
+        face[k] = entry[k] >> 1;
+        const std::int32_t slot = phase.lists.slot_of_face[face[k]], side = entry[k] & 1;
         flux_at[k] = slot_base(slot, L::n_flux);
-        cobasis_at[k] = flux_at[k] + side * L::n_cobasis * pack_width;
         if constexpr (Mixed)
           gain_at[k] = slot_base(gain_slot(slot, first_mixed), L::n_gain) + side * L::gain_side * pack_width;
         sign[k] = side ? 1 : -1;
       }
       const Real direction = load<Real>(sign.data());
-      const double* flux = phase.flux.data();
-      for (int c = 0; c < L::cobasis; ++c)
-        change[c] = change[c] + direction * gather<Real>(flux + c * pack_width, flux_at);
-      for (int c = 0; c < L::n_cobasis; ++c)
-        change[L::cobasis + c] =
-            change[L::cobasis + c] - gather<Real>(flux + (L::flux_cobasis[0] + c) * pack_width, cobasis_at);
+      const auto flux = [&](int c) { return gather<Real>(phase.flux.data() + c * pack_width, flux_at); };
+      for (int c = 0; c < L::cobasis; ++c) change[c] = change[c] + direction * flux(c);
+      if constexpr (K == Kind::solid) {
+        const Real through = flux(L::flux_volume), area = flux(L::flux_area);
+        moved = moved + direction * through;
+        for (int c = 0; c < L::n_cobasis; ++c)
+          change[L::cobasis + c] = change[L::cobasis + c] + direction * (flux(L::flux_cobasis + c) - through * e[c]);
+        const AlignedVector<double>* const normal[] = {&faces.nx, &faces.ny, &faces.nz};
+        std::array<Real, D> du;
+        for (int d = 0; d < D; ++d) du[d] = direction * (flux(L::flux_velocity + d) - area * u[d]);
+        for (int d = 0; d < D; ++d) {
+          const Real component = gather<Real>(normal[d]->data(), face);
+          for (int b = 0; b < D; ++b) deformation[d][b] = deformation[d][b] + component * du[b];
+        }
+      }
       if constexpr (Mixed) {
-        const double* gain = phase.gain.data();
-        alpha_gain = alpha_gain + gather<Real>(gain + L::gain_alpha * pack_width, gain_at);
-        for (int c = 0; c < L::cobasis; ++c) change[c] = change[c] + gather<Real>(gain + c * pack_width, gain_at);
+        const auto gain = [&](int c) { return gather<Real>(phase.gain.data() + c * pack_width, gain_at); };
+        alpha_gain = alpha_gain + gain(L::gain_alpha);
+        for (int c = 0; c < L::cobasis; ++c) change[c] = change[c] + gain(c);
+        for (int c = 0; c < L::n_cobasis; ++c)
+          change[L::cobasis + c] = change[L::cobasis + c] - gain(L::gain_cobasis + c);
       }
     }
     const Real rate = dt / gather<Real>(volume.data(), at);
     Real cobasis_rate = rate;
     if constexpr (Mixed) {
+      if (phase.inner.stride != 0) {
+        const auto inner = [&](int c) { return gather<Real>(phase.inner.component(c), at); };
+        for (int d = 0; d < D; ++d) change[L::momentum + d] = change[L::momentum + d] + inner(L::inner_momentum + d);
+        change[L::energy] = change[L::energy] + inner(L::inner_energy);
+        alpha_gain = alpha_gain + inner(L::inner_alpha);
+        for (int c = 0; c < L::n_cobasis; ++c)
+          change[L::cobasis + c] = change[L::cobasis + c] - inner(L::inner_cobasis + c);
+      }
       const Real alpha = gather<Real>(phase.alpha.data(), at) + rate * alpha_gain;
       scatter(alpha, phase.alpha.data(), at);
       cobasis_rate = select(alpha != Real(0.0), rate / alpha, Real(0.0));
     }
-    for (int c = 0; c < L::n_conserved; ++c) {
+    for (int c = 0; c < L::cobasis; ++c) {
       double* const to = phase.conserved[c].data();
-      scatter(gather<Real>(to, at) + (c < L::cobasis ? rate : cobasis_rate) * change[c], to, at);
+      scatter(gather<Real>(to, at) + rate * change[c], to, at);
+    }
+    if constexpr (K == Kind::solid) {
+      std::array<Real, L::n_cobasis> e_change{};
+      const auto deform = [&](std::array<Real, L::n_cobasis> of) {
+        for (int beta = 0; beta < D; ++beta)
+          for (int d = 0; d < D; ++d)
+            for (int b = 0; b < D; ++b)
+              change[L::cobasis + beta * D + d] =
+                  change[L::cobasis + beta * D + d] + deformation[d][b] * of[beta * D + b];
+      };
+      deform(e);
+      // the change of e is linear in e: at mid-step e is e + centring * (the change from the beginning)
+      for (int c = 0; c < L::n_cobasis; ++c) e_change[c] = centring * (cobasis_rate * change[L::cobasis + c]);
+      deform(e_change);
+      for (int c = 0; c < L::n_cobasis; ++c) {
+        const Real total = change[L::cobasis + c] - moved * e_change[c];
+        scatter(e[c] + cobasis_rate * total, phase.conserved[L::cobasis + c].data(), at);
+      }
     }
   }
 }

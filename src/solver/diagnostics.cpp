@@ -28,6 +28,18 @@ double Solver::mixed_share() const {
   return static_cast<double>(mpi_.sum(mixed)) / static_cast<double>(mesh_.n_global);
 }
 
+RobustnessCounters Solver::robustness() const {
+  RobustnessCounters counters;
+  if (reconstruction_) {
+    const double all = static_cast<double>(mpi_.sum(reconstruction_->reconstructed()));
+    const double fallen = static_cast<double>(mpi_.sum(reconstruction_->fallen()));
+    counters.fallback_share = all > 0 ? fallen / all : 0;
+  }
+  if (redistribution_) counters.mended = mpi_.sum(redistribution_->counters().mended);
+  counters.followed = mpi_.sum(followed_);
+  return counters;
+}
+
 int Solver::equations() const {
   int n = fields_.n_phases() - 1;
   for (const Phase& phase : fields_.phases) n += phase.n_conserved();

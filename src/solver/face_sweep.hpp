@@ -5,6 +5,7 @@
 #include "physics/cobasis_flux.hpp"
 #include "physics/longitudinal.hpp"
 #include "physics/shear.hpp"
+#include "physics/smooth_flow.hpp"
 #include "solver/faces.hpp"
 #include "solver/field.hpp"
 
@@ -18,27 +19,70 @@ struct PairList {
   std::int32_t side = 0;
 };
 
-template <class G, class Real>
-Vector<G, Real> load_vector(const std::vector<AlignedVector<double>>& components, int first, const Indices<Real>& at) {
+/// Where a sweep finds the state of one side: in the cells there (first order) …
+template <class Real>
+struct CellSide {
+  const Phase& phase;
+  Indices<Real> cell;
+
+  template <class L>
+  Real primitive(int c) const {
+    return gather<Real>((c == L::rho ? phase.density() : phase.primitive[c]).data(), cell);
+  }
+  template <class L>
+  Real cobasis(int c) const {
+    return gather<Real>(phase.conserved[L::cobasis + c].data(), cell);
+  }
+};
+
+/// … or reconstructed at the faces.
+template <class Real>
+struct FaceSide {
+  const Phase& phase;
+  Indices<Real> at;  ///< face, plus the stride on the right side
+  bool consecutive;
+
+  Real component(int c) const {
+    const double* const from = phase.face_states.component(c);
+    return consecutive ? load<Real>(from + at[0]) : gather<Real>(from, at);
+  }
+  template <class L>
+  Real primitive(int c) const {
+    return component(c);
+  }
+  template <class L>
+  Real cobasis(int c) const {
+    return component(L::n_primitive + c);
+  }
+};
+
+template <int Order, class Real>
+auto side_of(const Phase& phase, const FacePack<Real>& face, const Indices<Real>& cell, int side) {
+  if constexpr (Order == 1) {
+    return CellSide<Real>{phase, cell};
+  } else {
+    FaceSide<Real> at{phase, face.at, face.consecutive};
+    const auto shift = static_cast<std::int32_t>(side * phase.face_states.stride);
+    for (auto& i : at.at) i += shift;
+    return at;
+  }
+}
+
+template <class G, Kind K, class Side>
+auto load_velocity(const Side& side) {
+  using L = Layout<G, K>;
+  using Real = decltype(side.template primitive<L>(0));
   Vector<G, Real> v;
-  v.x = gather<Real>(components[first].data(), at);
-  v.y = gather<Real>(components[first + 1].data(), at);
-  if constexpr (G::dimension == 3) v.z = gather<Real>(components[first + 2].data(), at);
+  v.x = side.template primitive<L>(L::u);
+  v.y = side.template primitive<L>(L::u + 1);
+  if constexpr (G::dimension == 3) v.z = side.template primitive<L>(L::u + 2);
   return v;
 }
 
 template <class G, class Real>
 Cobasis<G, Real> load_cobasis(const Phase& phase, const Indices<Real>& at) {
-  const auto component = [&](int c) {
-    return gather<Real>(phase.conserved[Layout<G, Kind::solid>::cobasis + c].data(), at);
-  };
-  if constexpr (G::dimension == 2) {
-    return {{component(0), component(1), {}}, {component(2), component(3), {}}, {{}, {}, component(4)}};
-  } else {
-    return {{component(0), component(1), component(2)},
-            {component(3), component(4), component(5)},
-            {component(6), component(7), component(8)}};
-  }
+  return make_cobasis<G>(
+      [&](int c) { return gather<Real>(phase.conserved[Layout<G, Kind::solid>::cobasis + c].data(), at); });
 }
 
 /// Calls f(component, value) for the components of a cobasis that exist in the geometry.
@@ -52,34 +96,35 @@ void for_each_component(const Cobasis<G, Real>& e, F&& f) {
   }
 }
 
-template <class G, class Real>
-FluidState<G, Real> load_fluid_state(const Phase& phase, const Indices<Real>& cell) {
-  using L = Layout<G, Kind::fluid>;
-  const auto component = [&](int c) { return gather<Real>(phase.primitive[c].data(), cell); };
-  return {gather<Real>(phase.density().data(), cell), load_vector<G, Real>(phase.primitive, L::u, cell),
-          component(L::p), component(L::ch2), component(L::E)};
+template <class G, Kind K, class Side>
+auto load_fluid_state(const Side& side) {
+  using L = Layout<G, K>;
+  using Real = decltype(side.template primitive<L>(0));
+  return FluidState<G, Real>{side.template primitive<L>(L::rho), load_velocity<G, K>(side),
+                             side.template primitive<L>(L::p), side.template primitive<L>(L::ch2),
+                             side.template primitive<L>(L::E)};
 }
 
 /// A fluid's state carries no cobasis: Zero stands in its place.
-template <class G, Kind K, class Real>
-auto load_cobasis_of(const Phase& phase, const Indices<Real>& cell) {
+template <class G, Kind K, class Side>
+auto load_cobasis_of(const Side& side) {
   if constexpr (K == Kind::solid)
-    return load_cobasis<G, Real>(phase, cell);
+    return make_cobasis<G>([&](int c) { return side.template cobasis<Layout<G, K>>(c); });
   else
     return Zero{};
 }
 
-template <class G, class Real>
-FluidFace<G, Real> load_face_state(const Phase& phase, const Indices<Real>& cell, Zero, const Frame<G, Real>& frame) {
-  return face_state(load_fluid_state<G, Real>(phase, cell), frame);
+template <class G, class Side, class Real>
+FluidFace<G, Real> load_face_state(const Side& side, Zero, const Frame<G, Real>& frame) {
+  return face_state(load_fluid_state<G, Kind::fluid>(side), frame);
 }
 /// The metric is formed from e, which is needed anyway; a cell keeps only its scale.
-template <class G, class Real>
-SolidFace<G, Real> load_face_state(const Phase& phase, const Indices<Real>& cell, const Cobasis<G, Real>& e,
-                                   const Frame<G, Real>& frame) {
-  const Real scale = gather<Real>(phase.primitive[Layout<G, Kind::solid>::metric_scale].data(), cell);
-  return face_state(phase.material,
-                    SolidState<G, Real>{load_fluid_state<G, Real>(phase, cell), scaled_metric(e, scale)}, frame);
+template <class G, class Side, class Real>
+SolidFace<G, Real> load_face_state(const Side& side, const Cobasis<G, Real>& e, const Frame<G, Real>& frame) {
+  using L = Layout<G, Kind::solid>;
+  const Real scale = side.template primitive<L>(L::metric_scale);
+  return face_state(side.phase.material,
+                    SolidState<G, Real>{load_fluid_state<G, Kind::solid>(side), scaled_metric(e, scale)}, frame);
 }
 
 /// The slots of one pack in one buffer: component c of lane i at data[at[i] + c * pack_width].
@@ -110,68 +155,77 @@ inline std::int32_t gain_slot(std::int32_t slot, std::int32_t first_mixed) {
   return slot < first_mixed ? 0 : slot - first_mixed + pack_width;
 }
 
+/// Lane j of one side is read where the other side is.
+template <class Real>
+void stand_in(CellSide<Real>& absent, const CellSide<Real>& present, int j) {
+  absent.cell[j] = present.cell[j];
+}
+template <class Real>
+void stand_in(FaceSide<Real>& absent, const FaceSide<Real>& present, int j) {
+  absent.at[j] = present.at[j];
+  absent.consecutive = false;
+}
+
 enum class Beyond { cell, mirror };  ///< what lies right of a face: another cell, or the mirror image of the left one
 
 /// Riemann problem of a phase with itself. Pure: the whole face. Mixed: its share S_kk (possibly 0); the traction and
 /// speeds of both sides are kept for the pairs that the face's phases form.
-template <class G, Kind K, class Real, bool Mixed, Beyond B>
+template <class G, Kind K, class Real, bool Mixed, Beyond B, int Order>
 COBASIS_KERNEL void sweep_same(Faces& faces, Phase& phase, Segment segment) {
   using L = Layout<G, K>;
   const CompactList<std::int32_t>& list = Mixed ? phase.lists.mixed : phase.lists.pure;
   const std::int32_t first_slot = Mixed ? first_mixed_slot(faces) : pack_width;
   for (std::int32_t i = segment.first; i < segment.last; i += lanes<Real>) {
     const FacePack<Real> face(&list[i]);
-    Indices<Real> left = face(faces.left), right = face(faces.right);
+    const Indices<Real> left = face(faces.left), right = face(faces.right);
+    auto side_l = side_of<Order>(phase, face, left, 0), side_r = side_of<Order>(phase, face, right, 1);
     if constexpr (Mixed) {
-      for (int j = 0; j < lanes<Real>; ++j) {  // where the phase is absent, the present side's state stands in, unused
-        if (!(phase.alpha[left[j]] > 0)) left[j] = right[j];
-        if (!(phase.alpha[right[j]] > 0)) right[j] = left[j];
+      for (int j = 0; j < lanes<Real>;
+           ++j) {  // where the phase is absent on one side, the other side's state stands in
+        const bool in_left = phase.alpha[left[j]] > 0, in_right = phase.alpha[right[j]] > 0;
+        if (in_right && !in_left) stand_in(side_l, side_r, j);
+        if (in_left && !in_right) stand_in(side_r, side_l, j);
       }
     }
     const Frame<G, Real> frame = load_frame<G, Real>(faces, face);
-    const auto e_l = load_cobasis_of<G, K, Real>(phase, left);
-    const auto e_r = load_cobasis_of<G, K, Real>(phase, B == Beyond::mirror ? left : right);
-    const Face<G, K, Real> l = load_face_state<G, Real>(phase, left, e_l, frame);
-    Face<G, K, Real> r;
+    const auto e_l = load_cobasis_of<G, K>(side_l);
+    const auto e_r = load_cobasis_of<G, K>(B == Beyond::mirror ? side_l : side_r);
+    Face<G, K, Real> l = load_face_state<G>(side_l, e_l, frame), r;
     if constexpr (B == Beyond::mirror)
       r = mirrored(l);
     else
-      r = load_face_state<G, Real>(phase, right, e_r, frame);
+      r = load_face_state<G>(side_r, e_r, frame);
+    const Real signal = faster(signal_speed(l), signal_speed(r));
+    if (phase.low_mach != 0) reduce_slow_jump(l, r, Real(phase.low_mach));
     const LongitudinalStar<Real> star = longitudinal<Real>(l, r);
-    raise_fastest(faces, face, faster(faster(signal_speed(l), signal_speed(r)), star.fastest));
+    raise_fastest(faces, face, faster(signal, star.fastest));
     Flux<G, Real> flux = eulerian_flux<G>(star, l, r);
     Real weight = face(faces.area);
     if constexpr (Mixed) weight = weight * load<Real>(&phase.lists.mixed_share[i]);
 
     const std::int32_t slot = first_slot + i;
     double* const out = phase.flux.data() + slot_base(slot, L::n_flux);
+    const auto keep = [&](int c, const Real& value) { store(value, out + c * pack_width); };
     if constexpr (K == Kind::solid) {
       const ShearStar<G, Real> shear = bonded_shear(l, r);
       flux.momentum = flux.momentum - shear.tau;
       flux.energy = flux.energy - dot(shear.tau, shear.w_l);
 
-      const Vector<G, Real> du_l =
-          out_of_frame(frame, Vec3{star.u_f - l.u.x, shear.w_l.y - l.u.y, shear.w_l.z - l.u.z});
-      const auto keep = [&](int side, const Cobasis<G, Real>& change) {
-        for_each_component(
-            change, [&](int c, const Real& value) { store(value, out + (L::flux_cobasis[side] + c) * pack_width); });
-      };
-      if constexpr (B == Beyond::mirror) {
-        keep(0, weight * fluctuation(star.u_f, e_l, e_l, du_l, frame));
-      } else {
-        const Cobasis<G, Real> e_f = stretched(upwind(star.from_left, e_l, e_r), frame, star.r);
-        const Vector<G, Real> du_r =
-            out_of_frame(frame, Vec3{star.u_f - r.u.x, shear.w_r.y - r.u.y, shear.w_r.z - r.u.z});
-        keep(0, weight * fluctuation(star.u_f, e_f, e_l, du_l, frame));
-        keep(1, (-weight) * fluctuation(star.u_f, e_f, e_r, du_r, frame));
-      }
+      const Real moved = weight * star.u_f;
+      const Vector<G, Real> u_star = out_of_frame(frame, Vec3{star.u_f, shear.w_l.y, shear.w_l.z});
+      const Cobasis<G, Real> e_f =
+          B == Beyond::mirror ? e_l : stretched(upwind(star.from_left, e_l, e_r), frame, star.r);
+      for_each_component(e_f, [&](int c, const Real& value) { keep(L::flux_cobasis + c, moved * value); });
+      keep(L::flux_volume, moved);
+      keep(L::flux_velocity, weight * u_star.x), keep(L::flux_velocity + 1, weight * u_star.y);
+      if constexpr (G::dimension == 3) keep(L::flux_velocity + 2, weight * u_star.z);
+      keep(L::flux_area, weight);
     }
     const Vector<G, Real> momentum = out_of_frame(frame, flux.momentum);
-    store(weight * flux.mass, out + L::mass * pack_width);
-    store(weight * momentum.x, out + L::momentum * pack_width);
-    store(weight * momentum.y, out + (L::momentum + 1) * pack_width);
-    if constexpr (G::dimension == 3) store(weight * momentum.z, out + (L::momentum + 2) * pack_width);
-    store(weight * flux.energy, out + L::energy * pack_width);
+    keep(L::mass, weight * flux.mass);
+    keep(L::momentum, weight * momentum.x), keep(L::momentum + 1, weight * momentum.y);
+    if constexpr (G::dimension == 3) keep(L::momentum + 2, weight * momentum.z);
+    keep(L::energy, weight * flux.energy);
 
     if constexpr (Mixed) {
       const std::int32_t own = gain_slot(slot, first_slot);
@@ -194,16 +248,15 @@ COBASIS_KERNEL void sweep_same(Faces& faces, Phase& phase, Segment segment) {
   }
 }
 
-/// The state of one side as sweep_same left it, with density, velocity and energy from the cell.
-template <class G, Kind K, class Real>
-Face<G, K, Real> recall_side(const Phase& phase, const SlotPack<Real>& sides, int side, const Indices<Real>& cell,
-                             const Frame<G, Real>& frame) {
+/// The state of one side as sweep_same left it, with density, velocity and energy from where they lie.
+template <class G, Kind K, class Real, class Side>
+Face<G, K, Real> recall_side(const Side& at, const SlotPack<Real>& sides, int side, const Frame<G, Real>& frame) {
   using L = Layout<G, K>;
   const int c = side * L::n_side;
   Face<G, K, Real> s;
-  s.rho = gather<Real>(phase.density().data(), cell);
-  s.u = into_frame(frame, load_vector<G, Real>(phase.primitive, L::u, cell));
-  s.E = gather<Real>(phase.primitive[L::E].data(), cell);
+  s.rho = at.template primitive<L>(L::rho);
+  s.u = into_frame(frame, load_velocity<G, K>(at));
+  s.E = at.template primitive<L>(L::E);
   s.P = sides.read(c);
   s.c1 = sides.read(c + 1);
   if constexpr (K == Kind::solid) {
@@ -238,13 +291,12 @@ struct ContactFlux {
 template <class G, Kind K, class Real>
 struct PairSlots {
   using L = Layout<G, K>;
-  SlotPack<Real> flux, gain, sides;
+  SlotPack<Real> gain, sides;
 
   PairSlots(const Faces& faces, Phase& phase, const FacePack<Real>& face) {
     const Indices<Real> slots = face(phase.lists.slot_of_face);
     Indices<Real> own;
     for (int i = 0; i < lanes<Real>; ++i) own[i] = gain_slot(slots[i], first_mixed_slot(faces));
-    flux = slot_pack<Real>(phase.flux, L::n_flux, slots);
     gain = slot_pack<Real>(phase.gain, L::n_gain, own);
     sides = slot_pack<Real>(phase.sides, 2 * L::n_side, own);
   }
@@ -261,19 +313,30 @@ struct PairSlots {
     gain.add(c + L::gain_alpha, alpha);
   }
   void add_cobasis(int side, const Cobasis<G, Real>& change) const {
-    for_each_component(change, [&](int c, const Real& value) { flux.add(L::flux_cobasis[side] + c, value); });
+    const int first = side * L::gain_side + L::gain_cobasis;
+    for_each_component(change, [&](int c, const Real& value) { gain.add(first + c, value); });
   }
 };
 
-template <class G, class Real, class FaceState, class Tangential>
-Vector<G, Real> velocity_jump(const Frame<G, Real>& frame, const FaceState& s, const Real& u, const Tangential& w) {
-  return out_of_frame(frame, Vec3{u - s.u.x, w.y - s.u.y, w.z - s.u.z});
+template <class G, class Real, class Velocity, class Tangential>
+Vector<G, Real> velocity_jump(const Frame<G, Real>& frame, const Velocity& of_cell, const Real& u,
+                              const Tangential& w) {
+  return out_of_frame(frame, Vec3{u - of_cell.x, w.y - of_cell.y, w.z - of_cell.z});
+}
+
+/// Velocity of a phase in its cell, in the face's frame.
+template <int Order, Kind K, class G, class Real, class FaceState>
+auto cell_velocity(const Phase& phase, const Indices<Real>& cell, const Frame<G, Real>& frame, const FaceState& s) {
+  if constexpr (Order == 1)
+    return s.u;
+  else
+    return into_frame(frame, load_velocity<G, K>(CellSide<Real>{phase, cell}));
 }
 
 enum class Tangent { free, bonded };  ///< sliding phases, a fluid or a void are free; solids that adhere are bonded
 
 /// Contact of two different phases, l left and m right, along the face normal.
-template <class G, Kind Kl, Kind Km, Tangent T, class Real>
+template <class G, Kind Kl, Kind Km, Tangent T, class Real, int Order>
 COBASIS_KERNEL void sweep_pair(Faces& faces, Phase& phase_l, Phase& phase_m, const PairList& list, Segment segment) {
   for (std::int32_t i = segment.first; i < segment.last; i += lanes<Real>) {
     const FacePack<Real> face(&list.face[i]);
@@ -281,8 +344,9 @@ COBASIS_KERNEL void sweep_pair(Faces& faces, Phase& phase_l, Phase& phase_m, con
     const Frame<G, Real> frame = load_frame<G, Real>(faces, face);
     const PairSlots<G, Kl, Real> slots_l(faces, phase_l, face);
     const PairSlots<G, Km, Real> slots_m(faces, phase_m, face);
-    const auto l = recall_side<G, Kl, Real>(phase_l, slots_l.sides, 0, left, frame);
-    const auto m = recall_side<G, Km, Real>(phase_m, slots_m.sides, 1, right, frame);
+    const auto side_l = side_of<Order>(phase_l, face, left, 0), side_m = side_of<Order>(phase_m, face, right, 1);
+    const auto l = recall_side<G, Kl, Real>(side_l, slots_l.sides, 0, frame);
+    const auto m = recall_side<G, Km, Real>(side_m, slots_m.sides, 1, frame);
 
     const LongitudinalStar<Real> star = longitudinal<Real>(l, m);
     raise_fastest(faces, face, star.fastest);  // in strong tension faster than either side's own signal
@@ -313,15 +377,19 @@ COBASIS_KERNEL void sweep_pair(Faces& faces, Phase& phase_l, Phase& phase_m, con
       if constexpr (Km == Kind::solid) shear.w_r = free_surface_velocity(m, Real(-1.0));
     }
     if constexpr (Kl == Kind::solid) {
-      const Cobasis<G, Real> e = load_cobasis<G, Real>(phase_l, left), e_f = stretched(e, frame, star.r);
-      const Vector<G, Real> du = velocity_jump(frame, l, select(star.from_left, star.u_f, star.u_star), shear.w_l);
+      const Cobasis<G, Real> e = load_cobasis<G, Real>(phase_l, left),
+                             e_f = stretched(load_cobasis_of<G, Kl>(side_l), frame, star.r);
+      const Vector<G, Real> du = velocity_jump(frame, cell_velocity<Order, Kl>(phase_l, left, frame, l),
+                                               select(star.from_left, star.u_f, star.u_star), shear.w_l);
       slots_l.add_cobasis(0, weight * fluctuation(select(star.from_left, star.u_f, zero), e_f, e, du, frame));
       const Cobasis<G, Real> e_right = load_cobasis<G, Real>(phase_l, right);
       slots_l.add_cobasis(1, (-weight_l) * invader_fluctuation(star.u_star, star.u_f, e_f, e_right, frame));
     }
     if constexpr (Km == Kind::solid) {
-      const Cobasis<G, Real> e = load_cobasis<G, Real>(phase_m, right), e_f = stretched(e, frame, star.r);
-      const Vector<G, Real> du = velocity_jump(frame, m, select(star.from_left, star.u_star, star.u_f), shear.w_r);
+      const Cobasis<G, Real> e = load_cobasis<G, Real>(phase_m, right),
+                             e_f = stretched(load_cobasis_of<G, Km>(side_m), frame, star.r);
+      const Vector<G, Real> du = velocity_jump(frame, cell_velocity<Order, Km>(phase_m, right, frame, m),
+                                               select(star.from_left, star.u_star, star.u_f), shear.w_r);
       slots_m.add_cobasis(1, (-weight) * fluctuation(select(star.from_left, zero, star.u_f), e_f, e, du, frame));
       const Cobasis<G, Real> e_left = load_cobasis<G, Real>(phase_m, left);
       slots_m.add_cobasis(0, weight_m * invader_fluctuation(star.u_star, star.u_f, e_f, e_left, frame));
@@ -330,7 +398,7 @@ COBASIS_KERNEL void sweep_pair(Faces& faces, Phase& phase_l, Phase& phase_m, con
 }
 
 /// A material before a void at pressure p0: a free surface. Solved along the material's outward normal.
-template <class G, Kind K, class Real>
+template <class G, Kind K, class Real, int Order>
 COBASIS_KERNEL void sweep_free_surface(Faces& faces, Phase& phase, double p0, const PairList& list, Segment segment) {
   for (std::int32_t i = segment.first; i < segment.last; i += lanes<Real>) {
     const FacePack<Real> face(&list.face[i]);
@@ -343,7 +411,8 @@ COBASIS_KERNEL void sweep_free_surface(Faces& faces, Phase& phase, double p0, co
 
     const PairSlots<G, K, Real> slots(faces, phase, face);
     const int own = list.side, other = 1 - own;
-    auto l = recall_side<G, K, Real>(phase, slots.sides, own, inside, frame);
+    const auto side = side_of<Order>(phase, face, inside, own);
+    auto l = recall_side<G, K, Real>(side, slots.sides, own, frame);
     if constexpr (K == Kind::solid && G::dimension == 3) l.tau.z = outward * l.tau.z;  // t2 did not turn with n and t1
 
     const LongitudinalStar<Real> star = free_surface<Real>(l, Real(p0));
@@ -359,9 +428,11 @@ COBASIS_KERNEL void sweep_free_surface(Faces& faces, Phase& phase, double p0, co
                    advancing * contact.convected_energy, advancing * star.u_star);
 
     if constexpr (K == Kind::solid) {
-      const Cobasis<G, Real> e = load_cobasis<G, Real>(phase, inside), e_f = stretched(e, frame, star.r);
+      const Cobasis<G, Real> e = load_cobasis<G, Real>(phase, inside),
+                             e_f = stretched(load_cobasis_of<G, K>(side), frame, star.r);
       const auto w_star = free_surface_velocity(l, Real(1.0));
-      const Vector<G, Real> du = velocity_jump(frame, l, select(star.from_left, star.u_f, star.u_star), w_star);
+      const Vector<G, Real> du = velocity_jump(frame, cell_velocity<Order, K>(phase, inside, frame, l),
+                                               select(star.from_left, star.u_f, star.u_star), w_star);
       slots.add_cobasis(own, weight * fluctuation(select(star.from_left, star.u_f, zero), e_f, e, du, frame));
       const Cobasis<G, Real> e_outside = load_cobasis<G, Real>(phase, outside);
       slots.add_cobasis(other, (-advancing) * invader_fluctuation(star.u_star, star.u_f, e_f, e_outside, frame));

@@ -24,12 +24,19 @@ struct Layout {
   static constexpr int rho = 0, u = 1, p = 1 + D, ch2 = 2 + D, E = 3 + D, metric_scale = 4 + D;  // primitive
   static constexpr int n_primitive = K == Kind::solid ? 5 + D : 4 + D;
 
-  /// What a face does to a phase: flux of mass, momentum, energy (left to right), cobasis fluctuations of the left and
-  /// of the right cell. In mixed faces also, per side, the gain of mass, momentum, energy, alpha by contacts.
-  static constexpr int flux_cobasis[2] = {2 + D, 2 + D + n_cobasis};
-  static constexpr int n_flux = 2 + D + 2 * n_cobasis;
-  static constexpr int gain_alpha = 2 + D, gain_side = 3 + D;
+  /// What a face does to a phase: flux of mass, momentum, energy (left to right); of a solid also what its cobasis
+  /// changes by: u e and u of the face (normal velocities), the velocity u* at the face, and the area, all but the last
+  /// times the area. In mixed faces also, per side, the gain of mass, momentum, energy, alpha, cobasis by contacts.
+  static constexpr int flux_cobasis = 2 + D, flux_volume = flux_cobasis + n_cobasis, flux_velocity = flux_volume + 1,
+                       flux_area = flux_velocity + D;
+  static constexpr int n_flux = K == Kind::solid ? flux_area + 1 : 2 + D;
+  static constexpr int gain_alpha = 2 + D, gain_cobasis = 3 + D, gain_side = gain_cobasis + n_cobasis;
   static constexpr int n_gain = 2 * gain_side;
+  /// What contacts inside a cell do to a phase there.
+  static constexpr int inner_momentum = 0, inner_energy = D, inner_alpha = D + 1, inner_cobasis = D + 2,
+                       n_inner = inner_cobasis + n_cobasis;
+  /// State of a phase on one side of a face, where it is reconstructed: as primitive, then the cobasis.
+  static constexpr int n_face_state = n_primitive + n_cobasis;
   /// Traction and speeds of both sides, kept where a face's state serves several pairs: P, c1 (, tau_12, tau_13, c_s).
   static constexpr int n_side = K == Kind::solid ? 2 + D : 2;
 };
@@ -47,6 +54,28 @@ struct SlotLists {
   AlignedVector<std::int32_t> slot_of_face;  ///< n_faces + 1 entries; the last is the face of nobody
 };
 
+/// States of a phase on both sides of every face, reconstructed from the cells: [component][side][face].
+struct FaceStates {
+  RawStorage storage;
+  std::size_t stride = 0;  ///< numbers per component and side; not a multiple of a page
+
+  static std::size_t stride_for(std::size_t n_faces) { return (n_faces + 64) / 64 * 64 + 8; }
+  double* component(int c) { return storage.data() + 2 * stride * c; }
+  const double* component(int c) const { return storage.data() + 2 * stride * c; }
+};
+
+/// Several numbers per cell: [number][cell].
+struct CellNumbers {
+  RawStorage storage;
+  std::size_t stride = 0;
+
+  CellNumbers() = default;
+  CellNumbers(std::size_t n_cells, int n)
+      : storage(FaceStates::stride_for(n_cells) * n), stride(FaceStates::stride_for(n_cells)) {}
+  double* component(int c) { return storage.data() + stride * c; }
+  const double* component(int c) const { return storage.data() + stride * c; }
+};
+
 struct Phase {
   std::string name;
   bool is_void = false;
@@ -54,15 +83,22 @@ struct Phase {
   Eos eos;
   HyperelasticMaterial material;
   double void_pressure = 0;  ///< [Pa]
+  double low_mach = 0;       ///< 1: less dissipation where the flow is slow, see low_mach_jump; 0: none of that
 
   AlignedVector<double> alpha;                   ///< all cells; empty in a scene of one phase
   std::vector<AlignedVector<double>> conserved;  ///< [component][cell]
   std::vector<AlignedVector<double>> primitive;  ///< [component][cell]; valid where the phase is present
 
   SlotLists lists;
-  RawStorage flux;   ///< n_flux per slot
-  RawStorage gain;   ///< n_gain per mixed slot
-  RawStorage sides;  ///< n_side for the left and n_side for the right, per mixed slot
+  RawStorage flux;         ///< n_flux per slot
+  RawStorage gain;         ///< n_gain per mixed slot
+  RawStorage sides;        ///< n_side for the left and n_side for the right, per mixed slot
+  FaceStates face_states;  ///< of the second order
+  CellNumbers slopes;      ///< of the second order, where gradients are averaged: [quantity and direction][cell]
+  AlignedVector<double> slopes_known;  ///< per cell 1 or 0
+  CellNumbers inner;                   ///< of sharp interfaces: what contacts inside cells do
+  AlignedVector<double> wetted[2];     ///< of sharp interfaces: fraction of each face as seen from its left and its
+                                       ///< right cell, where Fields::near says so
 
   /// [kg/m^3]; alone in its scene, a phase has no other mass per volume than this.
   const AlignedVector<double>& density() const { return alpha.empty() ? conserved[0] : primitive[0]; }
@@ -85,11 +121,15 @@ struct Fields {
   std::vector<Phase> phases;
   int dimension = 2;
   std::int32_t n_owned = 0;
-  std::int32_t n_all = 0;            ///< owned, halo, ghosts
-  AlignedVector<double> volume;      ///< of owned and halo cells
+  std::int32_t n_all = 0;        ///< owned, halo, ghosts
+  AlignedVector<double> volume;  ///< of owned and halo cells
+  /// Of sharp interfaces: whether an interface is so near to a face that phases share it during the step. Else both its
+  /// cells are pure in the same phase.
+  AlignedVector<std::int32_t> near;
   AlignedVector<std::int32_t> pure;  ///< index of the only phase in a cell, -1 if there are several; all cells
 
   int n_phases() const { return static_cast<int>(phases.size()); }
+  bool sharp() const { return !near.empty(); }
   bool multiphase() const { return phases.size() > 1; }
   int first_cobasis() const { return 2 + dimension; }  ///< component of the conserved arrays, see Layout
 

@@ -59,7 +59,7 @@ COBASIS_KERNEL void Interfaces::sort(Faces& faces, Fields& fields, Part part) {
   const int p = static_cast<int>(part);
   for (int k = 0; k < n_phases_; ++k) pure_[k][p] = open_segment(fields.phases[k].lists.pure.size());
   part_faces_ = open_segment(mixed_faces_.size());
-  Indices<Pack> count_up, mixed_cell;
+  Indices<Pack> count_up, mixed_cell, far{};
   for (int i = 0; i < pack_width; ++i) count_up[i] = i;
   mixed_cell.fill(-1);
   for (const FaceRange& range : ranges_[p]) {
@@ -68,7 +68,8 @@ COBASIS_KERNEL void Interfaces::sort(Faces& faces, Fields& fields, Part part) {
       const Indices<Pack> left = lookup<Pack>(fields.pure.data(), load_indices<Pack>(&faces.left[f]));
       const Indices<Pack> right =
           part == Part::mirror ? left : lookup<Pack>(fields.pure.data(), load_indices<Pack>(&faces.right[f]));
-      const unsigned pure = equal_lanes(left, right) & ~equal_lanes(left, mixed_cell) & valid;
+      unsigned pure = equal_lanes(left, right) & ~equal_lanes(left, mixed_cell) & valid;
+      if (fields.sharp()) pure &= equal_lanes(load_indices<Pack>(&fields.near[f]), far);
       Indices<Pack> at;
       for (int i = 0; i < pack_width; ++i) at[i] = f + count_up[i];
       if (valid + 1 == 1u << pack_width)
@@ -111,8 +112,9 @@ COBASIS_KERNEL void Interfaces::find_contacts(const Faces& faces, Fields& fields
 
     Pack largest(-1.0);
     for (int k = 0; k < n; ++k) {
-      left_[k] = gather<Pack>(fields.phases[k].alpha.data(), l);
-      right_[k] = gather<Pack>(fields.phases[k].alpha.data(), r);
+      const Phase& phase = fields.phases[k];
+      left_[k] = fields.sharp() ? gather<Pack>(phase.wetted[0].data(), at) : gather<Pack>(phase.alpha.data(), l);
+      right_[k] = fields.sharp() ? gather<Pack>(phase.wetted[1].data(), at) : gather<Pack>(phase.alpha.data(), r);
       jump_[k] = left_[k] - right_[k];
       largest = larger(largest, left_[k] + right_[k]);
     }

@@ -3,38 +3,53 @@
 #pragma once
 
 #include "solver/cell_update.hpp"
+#include "solver/contact_cells.hpp"
+#include "solver/reconstruct.hpp"
 #include "solver/setup.hpp"
 
 namespace cobasis {
 
 struct PhaseKernels {
   void (*primitives)(Phase&, const CellList&, std::int32_t n, BadCells&) = nullptr;
+  /// Order 2: states on both sides of the faces of the listed cells; [with mirrors among them][with averaged
+  /// gradients].
+  std::int64_t (*reconstruct[2][2])(Phase&, const Faces&, const Stencil&, const CellList&, std::int32_t n,
+                                    const ReconstructionOptions&) = {};
+  void (*find_slopes[2])(Phase&, const Faces&, const Stencil&, const CellList&,
+                         std::int32_t n) = {};  ///< [with mirrors]
+  void (*copy_to_faces)(Phase&, const Faces&, const CellList&, std::int32_t n) = nullptr;
   void (*sweep_pure)(Faces&, Phase&, Segment) = nullptr;
   void (*sweep_pure_mirror)(Faces&, Phase&, Segment) = nullptr;
   void (*sweep_mixed)(Faces&, Phase&, Segment) = nullptr;
   void (*sweep_mixed_mirror)(Faces&, Phase&, Segment) = nullptr;
   void (*sweep_free_surface)(Faces&, Phase&, double p0, const PairList&, Segment) = nullptr;
   void (*update_pure)(const Faces&, const AlignedVector<double>& volume, Phase&, const CellList&, std::int32_t n,
-                      double dt) = nullptr;
+                      double dt, double centring) = nullptr;
   void (*update_mixed)(const Faces&, const AlignedVector<double>& volume, Phase&, const CellList&, std::int32_t n,
-                       double dt) = nullptr;
-  int n_conserved = 0, n_primitive = 0, n_flux = 0, n_gain = 0, n_side = 0;
+                       double dt, double centring) = nullptr;
+  void (*free_surface_in_cells)(Phase&, double p0, ContactList&, std::int32_t n) = nullptr;
+  void (*free_surface_speed)(Phase&, double p0, ContactList&, std::int32_t n) = nullptr;
+  int n_conserved = 0, n_primitive = 0, n_flux = 0, n_gain = 0, n_side = 0, n_face_state = 0, n_slopes = 0, n_inner = 0;
 };
-using PairKernel = void (*)(Faces&, Phase&, Phase&, const PairList&, Segment);
+struct PairKernels {
+  void (*sweep)(Faces&, Phase&, Phase&, const PairList&, Segment) = nullptr;
+  void (*contact_in_cells)(Phase&, Phase&, ContactList&, std::int32_t n) = nullptr;
+  void (*contact_speed)(Phase&, Phase&, ContactList&, std::int32_t n) = nullptr;
+};
 
 /// `Real` = Pack for runs; double to compare with.
 template <class G, class Real>
-PhaseKernels phase_kernels(Kind kind);
+PhaseKernels phase_kernels(Kind kind, int order);
 template <class G, class Real>
-PairKernel pair_kernel(Kind l, Kind m, Tangent tangent);
+PairKernels pair_kernels(Kind l, Kind m, Tangent tangent, int order);
 
-extern template PhaseKernels phase_kernels<Plane, Pack>(Kind);
-extern template PhaseKernels phase_kernels<Plane, double>(Kind);
-extern template PhaseKernels phase_kernels<Space, Pack>(Kind);
-extern template PhaseKernels phase_kernels<Space, double>(Kind);
-extern template PairKernel pair_kernel<Plane, Pack>(Kind, Kind, Tangent);
-extern template PairKernel pair_kernel<Plane, double>(Kind, Kind, Tangent);
-extern template PairKernel pair_kernel<Space, Pack>(Kind, Kind, Tangent);
-extern template PairKernel pair_kernel<Space, double>(Kind, Kind, Tangent);
+extern template PhaseKernels phase_kernels<Plane, Pack>(Kind, int);
+extern template PhaseKernels phase_kernels<Plane, double>(Kind, int);
+extern template PhaseKernels phase_kernels<Space, Pack>(Kind, int);
+extern template PhaseKernels phase_kernels<Space, double>(Kind, int);
+extern template PairKernels pair_kernels<Plane, Pack>(Kind, Kind, Tangent, int);
+extern template PairKernels pair_kernels<Plane, double>(Kind, Kind, Tangent, int);
+extern template PairKernels pair_kernels<Space, Pack>(Kind, Kind, Tangent, int);
+extern template PairKernels pair_kernels<Space, double>(Kind, Kind, Tangent, int);
 
 }  // namespace cobasis

@@ -5,39 +5,79 @@
 
 namespace cobasis {
 
+template <class G, Kind K, class Real, bool Mirrors, bool Averaged>
+std::int64_t reconstruct_phase(Phase& phase, const Faces& faces, const Stencil& stencil, const CellList& cells,
+                               std::int32_t n, const ReconstructionOptions& options) {
+  return std::visit(
+      [&]<class EquationOfState>(const EquationOfState& eos) {
+        return reconstruct<G, K, Real, EquationOfState, Mirrors, Averaged>(phase, eos, faces, stencil, cells, n,
+                                                                           options);
+      },
+      phase.eos);
+}
+
 template <class G, Kind K, class Real>
+void add_second_order(PhaseKernels& kernels) {
+  kernels.reconstruct[0][0] = &reconstruct_phase<G, K, Real, false, false>;
+  kernels.reconstruct[1][0] = &reconstruct_phase<G, K, Real, true, false>;
+  kernels.reconstruct[0][1] = &reconstruct_phase<G, K, Real, false, true>;
+  kernels.reconstruct[1][1] = &reconstruct_phase<G, K, Real, true, true>;
+  kernels.find_slopes[0] = &find_slopes<G, K, Real, false>;
+  kernels.find_slopes[1] = &find_slopes<G, K, Real, true>;
+  kernels.copy_to_faces = &copy_to_faces<G, K, Real>;
+}
+
+template <class G, Kind K, class Real, int Order>
 PhaseKernels phase_kernels_of() {
   using L = Layout<G, K>;
-  return {.primitives =
-              [](Phase& phase, const CellList& cells, std::int32_t n, BadCells& bad) {
-                std::visit([&](const auto& eos) { primitives<G, K, Real>(phase, eos, cells, n, bad); }, phase.eos);
-              },
-          .sweep_pure = &sweep_same<G, K, Real, false, Beyond::cell>,
-          .sweep_pure_mirror = &sweep_same<G, K, Real, false, Beyond::mirror>,
-          .sweep_mixed = &sweep_same<G, K, Real, true, Beyond::cell>,
-          .sweep_mixed_mirror = &sweep_same<G, K, Real, true, Beyond::mirror>,
-          .sweep_free_surface = &sweep_free_surface<G, K, Real>,
-          .update_pure = &update<G, K, Real, false>,
-          .update_mixed = &update<G, K, Real, true>,
-          .n_conserved = L::n_conserved,
-          .n_primitive = L::n_primitive,
-          .n_flux = L::n_flux,
-          .n_gain = L::n_gain,
-          .n_side = L::n_side};
+  PhaseKernels kernels{.primitives =
+                           [](Phase& phase, const CellList& cells, std::int32_t n, BadCells& bad) {
+                             std::visit([&](const auto& eos) { primitives<G, K, Real>(phase, eos, cells, n, bad); },
+                                        phase.eos);
+                           },
+                       .sweep_pure = &sweep_same<G, K, Real, false, Beyond::cell, Order>,
+                       .sweep_pure_mirror = &sweep_same<G, K, Real, false, Beyond::mirror, Order>,
+                       .sweep_mixed = &sweep_same<G, K, Real, true, Beyond::cell, Order>,
+                       .sweep_mixed_mirror = &sweep_same<G, K, Real, true, Beyond::mirror, Order>,
+                       .sweep_free_surface = &sweep_free_surface<G, K, Real, Order>,
+                       .update_pure = &update<G, K, Real, false>,
+                       .update_mixed = &update<G, K, Real, true>,
+                       .free_surface_in_cells = &free_surface_in_cells<G, K, Real, false>,
+                       .free_surface_speed = &free_surface_in_cells<G, K, Real, true>,
+                       .n_conserved = L::n_conserved,
+                       .n_primitive = L::n_primitive,
+                       .n_flux = L::n_flux,
+                       .n_gain = L::n_gain,
+                       .n_side = L::n_side,
+                       .n_face_state = L::n_face_state,
+                       .n_slopes = Primitives<G, K>::size * G::dimension,
+                       .n_inner = L::n_inner};
+  if constexpr (Order == 2) add_second_order<G, K, Real>(kernels);
+  return kernels;
 }
 
 template <class G, class Real>
-PhaseKernels phase_kernels(Kind kind) {
-  return kind == Kind::solid ? phase_kernels_of<G, Kind::solid, Real>() : phase_kernels_of<G, Kind::fluid, Real>();
+PhaseKernels phase_kernels(Kind kind, int order) {
+  if (kind == Kind::solid)
+    return order == 1 ? phase_kernels_of<G, Kind::solid, Real, 1>() : phase_kernels_of<G, Kind::solid, Real, 2>();
+  return order == 1 ? phase_kernels_of<G, Kind::fluid, Real, 1>() : phase_kernels_of<G, Kind::fluid, Real, 2>();
+}
+
+template <class G, Kind Kl, Kind Km, Tangent T, class Real>
+PairKernels pair_kernels_of(int order) {
+  return {.sweep = order == 1 ? &sweep_pair<G, Kl, Km, T, Real, 1> : &sweep_pair<G, Kl, Km, T, Real, 2>,
+          .contact_in_cells = &contact_in_cells<G, Kl, Km, T, Real, false>,
+          .contact_speed = &contact_in_cells<G, Kl, Km, T, Real, true>};
 }
 
 template <class G, class Real>
-PairKernel pair_kernel(Kind l, Kind m, Tangent tangent) {
-  if (l == Kind::fluid && m == Kind::fluid) return &sweep_pair<G, Kind::fluid, Kind::fluid, Tangent::free, Real>;
-  if (l == Kind::fluid) return &sweep_pair<G, Kind::fluid, Kind::solid, Tangent::free, Real>;
-  if (m == Kind::fluid) return &sweep_pair<G, Kind::solid, Kind::fluid, Tangent::free, Real>;
-  return tangent == Tangent::bonded ? &sweep_pair<G, Kind::solid, Kind::solid, Tangent::bonded, Real>
-                                    : &sweep_pair<G, Kind::solid, Kind::solid, Tangent::free, Real>;
+PairKernels pair_kernels(Kind l, Kind m, Tangent tangent, int order) {
+  constexpr Kind fluid = Kind::fluid, solid = Kind::solid;
+  if (l == fluid && m == fluid) return pair_kernels_of<G, fluid, fluid, Tangent::free, Real>(order);
+  if (l == fluid) return pair_kernels_of<G, fluid, solid, Tangent::free, Real>(order);
+  if (m == fluid) return pair_kernels_of<G, solid, fluid, Tangent::free, Real>(order);
+  return tangent == Tangent::bonded ? pair_kernels_of<G, solid, solid, Tangent::bonded, Real>(order)
+                                    : pair_kernels_of<G, solid, solid, Tangent::free, Real>(order);
 }
 
 }  // namespace cobasis

@@ -2,7 +2,7 @@
 
 namespace cobasis {
 
-template PhaseKernels phase_kernels<Plane, Pack>(Kind);
-template PairKernel pair_kernel<Plane, Pack>(Kind, Kind, Tangent);
+template PhaseKernels phase_kernels<Plane, Pack>(Kind, int);
+template PairKernels pair_kernels<Plane, Pack>(Kind, Kind, Tangent, int);
 
 }  // namespace cobasis

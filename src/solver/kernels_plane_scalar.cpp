@@ -2,7 +2,7 @@
 
 namespace cobasis {
 
-template PhaseKernels phase_kernels<Plane, double>(Kind);
-template PairKernel pair_kernel<Plane, double>(Kind, Kind, Tangent);
+template PhaseKernels phase_kernels<Plane, double>(Kind, int);
+template PairKernels pair_kernels<Plane, double>(Kind, Kind, Tangent, int);
 
 }  // namespace cobasis

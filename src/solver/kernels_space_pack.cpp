@@ -2,7 +2,7 @@
 
 namespace cobasis {
 
-template PhaseKernels phase_kernels<Space, Pack>(Kind);
-template PairKernel pair_kernel<Space, Pack>(Kind, Kind, Tangent);
+template PhaseKernels phase_kernels<Space, Pack>(Kind, int);
+template PairKernels pair_kernels<Space, Pack>(Kind, Kind, Tangent, int);
 
 }  // namespace cobasis

@@ -2,7 +2,7 @@
 
 namespace cobasis {
 
-template PhaseKernels phase_kernels<Space, double>(Kind);
-template PairKernel pair_kernel<Space, double>(Kind, Kind, Tangent);
+template PhaseKernels phase_kernels<Space, double>(Kind, int);
+template PairKernels pair_kernels<Space, double>(Kind, Kind, Tangent, int);
 
 }  // namespace cobasis

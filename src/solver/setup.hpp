@@ -120,9 +120,27 @@ struct Quantile {
   double fraction;
   Axis axis;
 };  ///< coordinate below which the fraction of the phase's volume lies
+struct Mean {
+  std::string field;  ///< a column as in tables: pressure.copper, stress.xx
+  Shape region;       ///< Everywhere or Box
+  std::string where;  ///< file:line
+};                    ///< of a field over a region, by volume; of a phase's field by the phase's volume
 struct IntegralSetup {
   std::string name;
-  std::variant<Extent, Quantile> what;
+  std::variant<Extent, Quantile, Mean> what;
+  std::string unit = "m";
+};
+
+/// sharp: planes that neighbouring cells share; compressed: planes, but no more of a face than a multiple of the volume
+/// fraction; diffuse: mixtures.
+enum class InterfaceTreatment { sharp, compressed, diffuse };
+
+/// The numerical method.
+struct Scheme {
+  int order = 2;  ///< in space and time
+  InterfaceTreatment interface = InterfaceTreatment::diffuse;
+  bool limited = true;  ///< slopes of order 2
+  bool low_mach = false;
 };
 
 struct Setup {
@@ -133,6 +151,7 @@ struct Setup {
   std::optional<Geometry> scene;  ///< default: space for a mesh with volume cells, else plane
   double end_time = 0;            ///< [s]
   double cfl = 0.8;
+  Scheme scheme;
   double alpha_min = 0;  ///< 0: absent phases are absent; > 0: traces everywhere
   std::optional<std::int64_t> max_steps;
   std::vector<PhaseSetup> phases;

@@ -12,27 +12,99 @@
 namespace cobasis {
 namespace {
 
-constexpr double fragment = 1e-2;  // below this volume fraction an inadmissible state is given to a neighbour
+/// Below this volume fraction an inadmissible state is given to a neighbour.
+constexpr double fragment = 1e-2, fragment_of_sharp = 3e-2;
 
 }  // namespace
 
 double Solver::advance(double until) {
   const double start = seconds();
-  const bool multiphase = fields_.multiphase();
-  if (multiphase)
+  clock_.step_start = start;
+  send_halo();
+  double dt;
+  if (setup_.scheme.order == 1 && !sharp_) {
+    stable_step_ = sweep_first_order();
+    dt = step_to(until, stable_step_);
+  } else {
+    dt = sweep_centred(until);
+  }
+  if (sharp_) sharp_->act(faces_, fields_, touched_cells_.span());
+  const bool arrives = dt >= until - time_;
+  update_cells(dt);
+  if (redistribution_) redistribution_->run(mesh_, faces_, fields_, touched_cells_.span());
+  book_boundaries(dt);
+  last_dt_ = dt;
+  time_ = arrives ? until : time_ + dt;
+  ++step_;
+  convert_owned(dt);
+  clock_.total += seconds() - start;
+  if (mpi_.any(!unphysical_.empty())) stop_unphysical();
+  return dt;
+}
+
+/// The step at the case's CFL number, not beyond `until`.
+double Solver::step_to(double until, double stable_step) const {
+  return time_ + setup_.cfl * stable_step < until ? setup_.cfl * stable_step : until - time_;
+}
+
+/// All faces, with the states of their cells. Returns the step at CFL 1.
+double Solver::sweep_first_order() {
+  begin_sweeps();
+  sweep(Part::inside);
+  sweep(Part::mirror);
+  clock_.inside_swept = seconds() - clock_.step_start;
+  receive_halo();
+  clock_.halo_received = seconds() - clock_.step_start;
+  sweep(Part::halo);
+  return stable_step();
+}
+
+/// All faces, with states and wetted fractions at the middle of the step, whose length must therefore be known before:
+/// it follows from the signals of the sweep before, and if they have become so much faster meanwhile that it is too
+/// long, the sweep is done again. Returns the step.
+double Solver::sweep_centred(double until) {
+  constexpr double margin = 1.1;  // the CFL number may be exceeded by so much
+  const bool second = setup_.scheme.order == 2;
+  ReconstructionOptions options{.dt = stable_step_ > 0 ? step_to(until, stable_step_) : 0,
+                                .limited = setup_.scheme.limited};
+  for (bool first = true;; first = false) {
+    if (second) {
+      const Timed timed(clock_.kernels);
+      reconstruction_->run_inside(fields_, faces_, options);
+    }
+    if (first) {
+      receive_halo();
+      if (sharp_) sharp_->place(faces_, fields_, followers_);
+    }
+    if (sharp_) sharp_->wet(faces_, fields_, options.dt);
+    if (second) {
+      const Timed timed(clock_.kernels);
+      reconstruction_->run_beside_halo(mesh_, fields_, faces_, options);
+      reconstruction_->send(mesh_, fields_);
+    }
+    begin_sweeps();
+    sweep(Part::inside);
+    sweep(Part::mirror);
+    clock_.inside_swept = seconds() - clock_.step_start;
+    if (second) reconstruction_->receive(mesh_, fields_);
+    clock_.halo_received = seconds() - clock_.step_start;
+    sweep(Part::halo);
+    stable_step_ = stable_step();
+    if (options.dt > 0 && options.dt <= margin * setup_.cfl * stable_step_) return options.dt;
+    options.dt = step_to(until, stable_step_);
+  }
+}
+
+void Solver::begin_sweeps() {
+  if (fields_.multiphase())
     interfaces_->clear(fields_);
   else
     std::fill(faces_.fastest.begin(), faces_.fastest.end(), 0.0);
+}
 
-  send_halo();
-  sweep(Part::inside);
-  sweep(Part::mirror);
-  clock_.inside_swept = seconds() - start;
-  receive_halo();
-  clock_.halo_received = seconds() - start;
-  sweep(Part::halo);
-
-  if (multiphase) list_cells();
+/// 2 V / sum A lambda of the sweeps just done, smallest over all cells of all ranks.
+double Solver::stable_step() {
+  if (fields_.multiphase()) list_cells();
   double step;
   {
     const Timed timed(clock_.kernels);
@@ -42,18 +114,7 @@ double Solver::advance(double until) {
   if (step == 0) find_undefined_speed();
   step = mpi_.min(step);
   if (step == 0) stop_unphysical();
-  const bool arrives = !(time_ + setup_.cfl * step < until);
-  const double dt = arrives ? until - time_ : setup_.cfl * step;
-
-  update_cells(dt);
-  book_boundaries(dt);
-  last_dt_ = dt;
-  time_ = arrives ? until : time_ + dt;
-  ++step_;
-  convert_owned(dt);
-  clock_.total += seconds() - start;
-  if (mpi_.any(!unphysical_.empty())) stop_unphysical();
-  return dt;
+  return step;
 }
 
 void Solver::sweep(Part part) {
@@ -83,7 +144,7 @@ void Solver::sweep(Part part) {
       else if (left.is_void)
         kernels_[m].sweep_free_surface(faces_, right, left.void_pressure, list, segment);
       else
-        pair_kernels_[l * n + m](faces_, left, right, list, segment);
+        pair_kernels_[l * n + m].sweep(faces_, left, right, list, segment);
     }
   }
 }
@@ -125,7 +186,6 @@ void Solver::receive_halo() {
     scratch_cells_.fill(pack_width);
     fields_.complete(scratch_cells_, mesh_.n_halo);
   }
-  BadCells ignored;  // the owner reports
   for (int k = 0; k < fields_.n_phases(); ++k) {
     Phase& phase = fields_.phases[k];
     if (phase.is_void) continue;
@@ -135,7 +195,11 @@ void Solver::receive_halo() {
     const std::int32_t count = scratch_cells_.size();
     scratch_cells_.fill(pack_width);
     const Timed timed(clock_.kernels);
-    kernels_[k].primitives(phase, scratch_cells_, count, ignored);
+    bad_.clear();  // the owner reports
+    kernels_[k].primitives(phase, scratch_cells_, count, bad_);
+    if (sharp_)
+      for (const std::int32_t cell : bad_)
+        if (phase.alpha[cell] < fragment_of_sharp) followers_.emplace_back(cell, k);
   }
 }
 
@@ -186,6 +250,7 @@ COBASIS_KERNEL void Solver::list_cells() {
 
 void Solver::update_cells(double dt) {
   const Timed timed(clock_.kernels);
+  const double centring = setup_.scheme.order == 2 ? 0.5 : 0;
   for (int k = 0; k < fields_.n_phases(); ++k) {
     Phase& phase = fields_.phases[k];
     if (phase.is_void) continue;
@@ -193,8 +258,8 @@ void Solver::update_cells(double dt) {
       CellList& cells = mixed ? mixed_cells_[k] : pure_cells_[k];
       const std::int32_t count = fields_.multiphase() ? cells.size() : mesh_.n_owned;
       cells.fill(pack_width);
-      (mixed ? kernels_[k].update_mixed : kernels_[k].update_pure)(faces_, fields_.volume, phase, cells,
-                                                                   mixed && !fields_.multiphase() ? 0 : count, dt);
+      (mixed ? kernels_[k].update_mixed : kernels_[k].update_pure)(
+          faces_, fields_.volume, phase, cells, mixed && !fields_.multiphase() ? 0 : count, dt, mixed ? 0 : centring);
     }
   }
   if (!fields_.multiphase()) return;
@@ -265,13 +330,16 @@ void Solver::convert_owned(double dt) {
   std::sort(inadmissible.begin(), inadmissible.end());
   inadmissible.erase(std::unique(inadmissible.begin(), inadmissible.end()), inadmissible.end());
 
+  if (redistribution_) mend(inadmissible);
   if (exchange_) {
     std::vector<std::pair<std::int32_t, int>> fragments;
     for (const auto& [cell, k] : inadmissible)
       if (fields_.phases[k].alpha[cell] < fragment) fragments.emplace_back(cell, k);
+    VolumeExchange::Expected expected;
+    if (sharp_) expected = [&](std::int32_t cell, int k) { return sharp_->expects(fields_, k, cell, dt); };
     const double kernels_before = exchange_->kernel_seconds();
     const std::vector<std::int32_t>& exchanged =
-        exchange_->run(mesh_, faces_, fields_, dt, touched_cells_.span(), fragments);
+        exchange_->run(mesh_, faces_, fields_, dt, touched_cells_.span(), fragments, expected);
     clock_.kernels += exchange_->kernel_seconds() - kernels_before;
     std::vector<std::pair<std::int32_t, int>> remaining;
     for (const auto& entry : inadmissible)
@@ -287,7 +355,38 @@ void Solver::convert_owned(double dt) {
     }
     inadmissible = std::move(remaining);
   }
-  for (const auto& [cell, k] : inadmissible) note_unphysical(k, cell);
+  followers_.clear();
+  for (const auto& [cell, k] : inadmissible)
+    if (sharp_ && fields_.phases[k].alpha[cell] < fragment_of_sharp)
+      followers_.emplace_back(cell, k);
+    else
+      note_unphysical(k, cell);
+  followed_ += static_cast<std::int64_t>(followers_.size());
+}
+
+/// Averages what is not admissible with neighbours until it is; what cannot be mended stays in the list.
+void Solver::mend(std::vector<std::pair<std::int32_t, int>>& inadmissible) {
+  constexpr int most_passes = 4;
+  for (int pass = 0; pass < most_passes && mpi_.any(!inadmissible.empty()); ++pass) {
+    redistribution_->mend(mesh_, faces_, fields_, inadmissible);
+    std::vector<std::pair<std::int32_t, int>> changed = redistribution_->changed(), remaining;
+    std::sort(changed.begin(), changed.end());
+    for (const auto& volume : inadmissible)
+      if (!std::binary_search(changed.begin(), changed.end(), volume)) remaining.push_back(volume);
+    for (int k = 0; k < fields_.n_phases(); ++k) {
+      if (fields_.phases[k].is_void) continue;
+      scratch_cells_.clear();
+      for (const auto& [cell, phase] : changed)
+        if (phase == k && fields_.phases[k].alpha[cell] > 0) scratch_cells_.push(cell);
+      const std::int32_t count = scratch_cells_.size();
+      scratch_cells_.fill(pack_width);
+      bad_.clear();
+      kernels_[k].primitives(fields_.phases[k], scratch_cells_, count, bad_);
+      for (const std::int32_t cell : bad_) remaining.emplace_back(cell, k);
+    }
+    std::sort(remaining.begin(), remaining.end());
+    inadmissible = std::move(remaining);
+  }
 }
 
 void Solver::note_unphysical(int k, std::int32_t cell) {
@@ -309,20 +408,20 @@ void Solver::note_unphysical(int k, std::int32_t cell) {
   }
 }
 
-/// A wave speed that is not a real number: names the phase whose state in the cell, or beside it, makes it so.
+/// A wave speed that is not a finite number: names the phase whose state in the cell, or beside it, makes it so.
 void Solver::find_undefined_speed() {
   for (std::int32_t i = 0; i < material_count_; ++i) {
     const std::int32_t cell = material_cells_[i];
     for (int j = 0; j < faces_.max_cell_faces; ++j) {
       const std::int32_t face = faces_.cell_faces[static_cast<std::size_t>(j) * faces_.cell_stride + cell] >> 1;
-      if (faces_.fastest[face] == faces_.fastest[face]) continue;
+      if (std::isfinite(faces_.fastest[face])) continue;
       int largest = -1;
       for (int k = 0; k < fields_.n_phases(); ++k)
         if (!fields_.phases[k].is_void &&
             (largest < 0 || fields_.phases[k].alpha[cell] > fields_.phases[largest].alpha[cell]))
           largest = k;
       note_unphysical(largest, cell);
-      unphysical_ += "; a wave speed is not a real number";
+      unphysical_ += "; a wave speed is not a finite number";
       return;
     }
   }

@@ -14,7 +14,10 @@
 #include "mesh/neighbour_exchange.hpp"
 #include "solver/interfaces.hpp"
 #include "solver/kernels.hpp"
+#include "solver/reconstruction.hpp"
+#include "solver/redistribution.hpp"
 #include "solver/setup.hpp"
+#include "solver/sharp_interface.hpp"
 #include "solver/snapshot.hpp"
 #include "solver/volume_exchange.hpp"
 
@@ -28,14 +31,24 @@ struct Unphysical : std::runtime_error {
 struct SolverOptions {
   bool scalar = false;                     ///< kernels one cell or face at a time, to compare with
   std::function<void()> before_halo_send;  ///< called in every step before this rank sends its halo
+  /// State of a phase at a cell's centroid at the start, instead of the regions'; where there is what, they still say.
+  std::function<PhaseState(int phase, const Point& x)> initial_state;
 };
 
 /// Seconds since the start of the last step, and sums over all steps.
 struct StepClock {
+  double step_start = 0;                       ///< of the last step, on the clock's own scale
   double inside_swept = 0, halo_received = 0;  ///< of the last step
   double total = 0;                            ///< of whole steps, summed
   double kernels = 0;  ///< inside loops over packs: lists, contacts, sweeps, updates, conversions; summed
   double sweeps = 0;   ///< of these, in sweeps over faces; summed
+};
+
+/// How often the scheme had to help itself so far, on all ranks.
+struct RobustnessCounters {
+  double fallback_share = 0;  ///< of the cells with slopes, those whose states at faces would have been inadmissible
+  std::int64_t mended = 0;    ///< inadmissible states averaged with a neighbour's
+  std::int64_t followed = 0;  ///< fragments that took a neighbour's state, summed over steps
 };
 
 class Solver {
@@ -53,6 +66,7 @@ class Solver {
   const StepClock& clock() const { return clock_; }
   const PhaseKernels& kernels(int phase) const { return kernels_[phase]; }
   const ExchangeCounters& exchange_counters() const;  ///< of this rank
+  RobustnessCounters robustness() const;              ///< collective
   /// Sum of the volumes exchanged so far [m^3]. Collective.
   double exchanged_volume() const;
   /// Share of this rank's cells with more than one phase, over all ranks. Collective.
@@ -69,7 +83,13 @@ class Solver {
  private:
   void allocate();
   void set_initial_state();
+  void set_reference_states();
   void set_state(int k, std::int32_t cell, double alpha, const PhaseState& state, const Point& x);
+  double sweep_first_order();
+  double sweep_centred(double until);
+  double step_to(double until, double stable_step) const;
+  double stable_step();
+  void begin_sweeps();
   void sweep(Part part);
   void send_halo();
   void receive_halo();
@@ -78,6 +98,7 @@ class Solver {
   void book_boundaries(double dt);
   void choose_present(CellList& cells, const Phase& phase);
   void convert_owned(double dt);
+  void mend(std::vector<std::pair<std::int32_t, int>>& inadmissible);
   void note_unphysical(int k, std::int32_t cell);
   void find_undefined_speed();
   [[noreturn]] void stop_unphysical() const;
@@ -91,9 +112,12 @@ class Solver {
 
   Faces faces_;
   Fields fields_;
-  std::vector<PhaseKernels> kernels_;     // per phase
-  std::vector<PairKernel> pair_kernels_;  // [l * n + m], null with a void
+  std::vector<PhaseKernels> kernels_;      // per phase
+  std::vector<PairKernels> pair_kernels_;  // [l * n + m], null with a void
   std::optional<Interfaces> interfaces_;
+  std::optional<Reconstruction> reconstruction_;  // of order 2
+  std::optional<SharpInterface> sharp_;
+  std::optional<Redistribution> redistribution_;  // of sharp interfaces
   std::optional<VolumeExchange> exchange_;
   std::unique_ptr<NeighbourExchange> halo_;
 
@@ -103,6 +127,8 @@ class Solver {
   CellList touched_cells_;           // owned cells with a face that is not pure, ascending
   CellList scratch_cells_;
   BadCells bad_;
+  std::vector<std::pair<std::int32_t, int>> followers_;   // (cell, phase) of fragments without a state of their own
+  std::int64_t followed_ = 0;                             // of these, summed over steps
   std::vector<std::vector<std::vector<double>>> booked_;  // [phase][mass, momentum, energy][boundary face]
   std::string unphysical_;                                // this rank's report
   std::int64_t unphysical_id_ = 0;                        // its cell's global id
@@ -110,6 +136,7 @@ class Solver {
   double time_ = 0;
   std::int64_t step_ = 0;
   double last_dt_ = 0;
+  double stable_step_ = 0;  // at cfl 1, by the signals of the last sweep; 0: none yet
   StepClock clock_;
 };
 

@@ -60,19 +60,20 @@ std::vector<double> conserved_state(const PhaseSetup& phase, const PhaseState& s
 }
 
 template <class G>
-void pick_kernels(const Setup& setup, bool scalar, std::vector<PhaseKernels>& phases, std::vector<PairKernel>& pairs) {
+void pick_kernels(const Setup& setup, bool scalar, std::vector<PhaseKernels>& phases, std::vector<PairKernels>& pairs) {
   const int n = static_cast<int>(setup.phases.size());
   const auto kind = [&](int k) { return setup.phases[k].is_solid() ? Kind::solid : Kind::fluid; };
+  const int order = setup.scheme.order;
   phases.resize(n);
-  pairs.assign(n * n, nullptr);
+  pairs.assign(n * n, {});
   for (int l = 0; l < n; ++l) {
     if (setup.phases[l].is_void()) continue;
-    phases[l] = scalar ? phase_kernels<G, double>(kind(l)) : phase_kernels<G, Pack>(kind(l));
+    phases[l] = scalar ? phase_kernels<G, double>(kind(l), order) : phase_kernels<G, Pack>(kind(l), order);
     for (int m = 0; m < n; ++m) {
       if (m == l || setup.phases[m].is_void()) continue;
       const Tangent tangent = setup.contact(l, m) == Contact::adherence ? Tangent::bonded : Tangent::free;
-      pairs[l * n + m] =
-          scalar ? pair_kernel<G, double>(kind(l), kind(m), tangent) : pair_kernel<G, Pack>(kind(l), kind(m), tangent);
+      pairs[l * n + m] = scalar ? pair_kernels<G, double>(kind(l), kind(m), tangent, order)
+                                : pair_kernels<G, Pack>(kind(l), kind(m), tangent, order);
     }
   }
 }
@@ -106,7 +107,14 @@ Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
   set_initial_state();
   if (!fields_.multiphase())
     for (const Part part : {Part::inside, Part::mirror, Part::halo}) interfaces_->sort(faces_, fields_, part);
-  if (fields_.multiphase() && setup_.alpha_min == 0) exchange_.emplace(mpi_, mesh_, fields_);
+  if (setup_.scheme.order == 2) reconstruction_.emplace(mpi_, mesh_, faces_, fields_, kernels_, boundaries_);
+  const bool sharp = setup_.scheme.interface == InterfaceTreatment::sharp;
+  if (fields_.multiphase() && setup_.scheme.interface != InterfaceTreatment::diffuse) {
+    sharp_.emplace(mpi_, mesh_, faces_, fields_, setup_, kernels_, pair_kernels_, boundaries_);
+    if (sharp) redistribution_.emplace(mpi_, mesh_, fields_);
+  }
+  if (fields_.multiphase() && setup_.alpha_min == 0)
+    exchange_.emplace(mpi_, mesh_, fields_, sharp ? sharp_exchange : diffuse_exchange);
 
   std::size_t per_cell = fields_.multiphase() ? fields_.n_phases() : 0;
   for (const Phase& phase : fields_.phases) per_cell += phase.n_conserved();
@@ -137,6 +145,7 @@ void Solver::allocate() {
     phase.eos = from.eos;
     phase.material = from.elastic.value_or(HyperelasticMaterial{});
     phase.void_pressure = from.void_pressure.value_or(0);
+    phase.low_mach = setup_.scheme.low_mach ? 1 : 0;
     if (multiphase) phase.alpha.assign(n_all, 0);
     if (phase.is_void) continue;
     phase.conserved.resize(kernels.n_conserved);
@@ -155,6 +164,10 @@ void Solver::allocate() {
                                    setup_.case_file, faces_.n));
     phase.flux = RawStorage(flux_size);
     std::fill_n(phase.flux.data(), pack_width * kernels.n_flux, 0.0);
+    if (setup_.scheme.order == 2) {
+      phase.face_states.stride = FaceStates::stride_for(faces_.n + 1);
+      phase.face_states.storage = RawStorage(2 * phase.face_states.stride * kernels.n_face_state);
+    }
     if (multiphase) {
       lists.mixed = CompactList<std::int32_t>(list_capacity);
       lists.mixed_share = CompactList<double>(list_capacity);
@@ -190,9 +203,13 @@ void Solver::set_initial_state() {
     const InitialState initial = paint(setup_.regions, n, mesh_);
     for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell)
       for (int k = 0; k < n; ++k)
-        if (initial.region[k][cell] >= 0)
-          set_state(k, cell, initial.alpha[k][cell], setup_.regions[initial.region[k][cell]].filling.states[k],
-                    mesh_.centroid[cell]);
+        if (initial.region[k][cell] >= 0) {
+          const Point& x = mesh_.centroid[cell];
+          set_state(k, cell, initial.alpha[k][cell],
+                    options_.initial_state ? options_.initial_state(k, x)
+                                           : setup_.regions[initial.region[k][cell]].filling.states[k],
+                    x);
+        }
   } catch (const InputError& error) {
     mistake = error.what();
   }
@@ -240,6 +257,24 @@ void Solver::set_initial_state() {
       if (cell < mesh_.n_owned) note_unphysical(k, cell);
   }
   if (mpi_.any(!unphysical_.empty())) stop_unphysical();
+  if (fields_.multiphase()) set_reference_states();
+}
+
+/// The padding behind all cells holds for each phase the first state in which the case speaks of it.
+void Solver::set_reference_states() {
+  for (int k = 0; k < fields_.n_phases(); ++k) {
+    Phase& phase = fields_.phases[k];
+    const auto region =
+        std::ranges::find_if(setup_.regions, [&](const RegionSetup& r) { return r.filling.alpha[k] > 0; });
+    if (phase.is_void || region == setup_.regions.end()) continue;
+    set_state(k, fields_.n_all, 1, region->filling.states[k], Point{0, 0, 0});
+    CellList cell(pack_width);
+    cell.push(fields_.n_all);
+    cell.fill(pack_width);
+    BadCells none;
+    kernels_[k].primitives(phase, cell, 1, none);
+    phase.alpha[fields_.n_all] = 0;
+  }
 }
 
 }  // namespace cobasis

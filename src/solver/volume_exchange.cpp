@@ -12,14 +12,15 @@
 namespace cobasis {
 namespace {
 
-constexpr double largest_threshold = 1e-3;  // larger values sharpen interfaces, but make staircases of oblique ones
-constexpr double smallest_threshold = 1e-9;
 constexpr double dust_threshold = 1e-11;
-/// A donor keeps a phase that it gives: what is itself small (fragments below 1e-2 may be exchanged by force) may be
-/// about to leave the donor, and must not be given twice.
-constexpr double least_to_give = 1e-2;
+/// A donor keeps a phase that it gives: what is itself small (fragments below 1e-2 may be exchanged by force, others
+/// below the threshold) may be about to leave the donor, and must not be given twice.
+constexpr double least_fragment = 1e-2;
+/// What stays in a donor of the phase it gives, as volume fraction: not a remainder of round-off.
+constexpr double least_rest = 1e-6;
 
-/// Messages: the position of the asking cell, of the donor, k, j, volume, alpha, dust only, then the content.
+/// Messages: the position of the asking cell, of the donor, k, j, volume, alpha, dust only, then the content;
+/// of a negative volume then also that of phase j.
 constexpr int request_head = 7;
 
 std::vector<std::size_t> capacities(const Mesh& mesh, std::size_t per_cell) {
@@ -35,6 +36,9 @@ void reset_cobasis(const Fields& fields, Phase& phase, std::int32_t cell) {
     phase.conserved[c][cell] = identity_cobasis(fields.dimension, c - fields.first_cobasis());
 }
 
+/// Whether so much of what is available may be given by a cell of volume V.
+bool has(double available, double given, double V) { return available >= given + least_rest * V; }
+
 /// Round-off can leave content without volume.
 bool may_be_there(const Phase& phase, std::int32_t cell) {
   return phase.alpha[cell] != 0 || (!phase.is_void && phase.conserved[0][cell] != 0);
@@ -48,10 +52,13 @@ std::size_t most_conserved(const Fields& fields) {
 
 }  // namespace
 
-VolumeExchange::VolumeExchange(const Mpi& mpi, const Mesh& mesh, const Fields& fields)
-    : alpha_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases()), 11),
-      requests_out_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases() * (request_head + most_conserved(fields))),
-                    12),
+VolumeExchange::VolumeExchange(const Mpi& mpi, const Mesh& mesh, const Fields& fields,
+                               const ExchangeThresholds& thresholds)
+    : thresholds_(thresholds),
+      least_to_give_(std::max(least_fragment, thresholds.largest)),
+      alpha_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases()), 11),
+      requests_out_(mpi, mesh.neighbours,
+                    capacities(mesh, fields.n_phases() * (request_head + 2 * most_conserved(fields))), 12),
       answers_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases() * (1 + most_conserved(fields))), 13),
       neighbour_of_halo_(mesh.n_halo),
       sent_(mesh.neighbours.size()),
@@ -78,6 +85,23 @@ Content VolumeExchange::content_of(const Fields& fields, int k, std::int32_t cel
   for (int c = 0; c < phase.n_conserved(); ++c)
     content[c] = phase.conserved[c][cell] * fields.volume[cell] * (c < fields.first_cobasis() ? 1 : phase.alpha[cell]);
   return content;
+}
+
+/// What a volume of the phase holds, of the cell's content.
+Content VolumeExchange::part_of(const Fields& fields, int k, std::int32_t cell, double volume) const {
+  Content content = content_of(fields, k, cell);
+  const double part = volume / (fields.phases[k].alpha[cell] * fields.volume[cell]);
+  for (double& value : content) value *= part;
+  return content;
+}
+
+/// The volume of a phase that an owned cell's own requests may take out of it.
+double VolumeExchange::promised(std::int32_t cell, int k) const {
+  double volume = 0;
+  const auto before = [](const Request& r, std::int32_t c) { return r.cell < c; };
+  for (auto r = std::lower_bound(asked_.begin(), asked_.end(), cell, before); r != asked_.end() && r->cell == cell; ++r)
+    if (r->negative() && r->j == k) volume -= r->volume;
+  return volume;
 }
 
 void VolumeExchange::share_alpha(const Mesh& mesh, Fields& fields) {
@@ -117,9 +141,13 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
     const std::int32_t d = entry & 1 ? faces.left[face] : faces.right[face];
     if (d == cell || !(alpha(k, d) > own)) continue;
     if (better(d, richest)) richest = d;
-    if (forced && alpha(k, d) < least_to_give) continue;  // what is inadmissible needs a healthy partner
-    if (alpha(j, d) >= least_to_give && alpha(j, d) * fields.volume[d] >= volume && better(d, donor)) donor = d;
+    if (!(alpha(k, d) > std::fabs(own))) continue;
+    if (forced && alpha(k, d) < least_to_give_) continue;  // what is inadmissible needs a healthy partner
+    // a negative volume comes with the cell's own j: part of a tiny alpha_j in d would be more than all that is there
+    const double left = volume < 0 ? alpha(k, d) : alpha(j, d) >= least_to_give_ ? alpha(j, d) : 0;
+    if (has(left * fields.volume[d], std::fabs(volume), fields.volume[d]) && better(d, donor)) donor = d;
   }
+  if (volume < 0 && !has(alpha(j, cell) * fields.volume[cell], -volume, fields.volume[cell])) donor = -1;
   const bool dust_only = donor < 0 && std::fabs(own) < dust_threshold && richest >= 0;
   if (dust_only) donor = richest;
   if (donor < 0) {
@@ -143,7 +171,7 @@ COBASIS_KERNEL void VolumeExchange::find_small(const Fields& fields, std::span<c
       const Pack alpha = gather<Pack>(phase.alpha.data(), at);
       Pack there = magnitude(alpha);
       if (!phase.is_void) there += magnitude(gather<Pack>(phase.conserved[0].data(), at));
-      small |= positive_lanes(largest_threshold - alpha) & positive_lanes(there);
+      small |= positive_lanes(thresholds_.largest - alpha) & positive_lanes(there);
     }
     for (int j = 0; j < pack_width && next_forced != forced.end(); ++j) {
       if (next_forced->first == at[j]) small |= 1u << j;
@@ -157,7 +185,7 @@ COBASIS_KERNEL void VolumeExchange::find_small(const Fields& fields, std::span<c
 
 void VolumeExchange::ask(const Mesh& mesh, const Faces& faces, const Fields& fields, double dt,
                          std::span<const std::int32_t> candidates,
-                         const std::vector<std::pair<std::int32_t, int>>& forced) {
+                         const std::vector<std::pair<std::int32_t, int>>& forced, const Expected& expected) {
   asked_.clear();
   {
     const Timed timed(kernel_seconds_);
@@ -182,12 +210,13 @@ void VolumeExchange::ask(const Mesh& mesh, const Faces& faces, const Fields& fie
     }
     if (mass > 0) swept /= mass;
     const double threshold =
-        std::max(smallest_threshold, std::min(largest_threshold, 0.1 * dt * swept / (2 * fields.volume[cell])));
+        std::max(thresholds_.smallest, std::min(thresholds_.largest, 0.1 * dt * swept / (2 * fields.volume[cell])));
     for (int k = 0; k < fields.n_phases(); ++k) {
       const double alpha = fields.phases[k].alpha[cell];
       const bool is_forced = next_forced != forced.end() && *next_forced == std::pair(cell, k);
       if (is_forced) ++next_forced;
-      if (may_be_there(fields.phases[k], cell) && (alpha < threshold || is_forced))
+      if (!may_be_there(fields.phases[k], cell) || !(alpha < threshold || is_forced)) continue;
+      if (is_forced || alpha < thresholds_.smallest || !expected || !expected(cell, k))
         request(mesh, faces, fields, cell, k, is_forced);
     }
   }
@@ -216,6 +245,9 @@ void VolumeExchange::deliver(const Mesh& mesh, const Fields& fields) {
       out.push_back(value);
     const Content content = content_of(fields, r.k, r.cell);
     for (int c = 0; c < fields.phases[r.k].n_conserved(); ++c) out.push_back(content[c]);
+    if (!r.negative()) continue;
+    const Content other = part_of(fields, r.j, r.cell, -r.volume);
+    for (int c = 0; c < fields.phases[r.j].n_conserved(); ++c) out.push_back(other[c]);
   }
   requests_out_.start();
   requests_out_.finish();
@@ -227,35 +259,43 @@ void VolumeExchange::deliver(const Mesh& mesh, const Fields& fields) {
       const std::int32_t cell = neighbour.receive_first + static_cast<std::int32_t>(in[at]);
       const std::int32_t donor = neighbour.send[static_cast<std::size_t>(in[at + 1])];
       const int k = static_cast<int>(in[at + 2]), j = static_cast<int>(in[at + 3]);
-      Content content{};
-      const int size = fields.phases[k].n_conserved();
-      std::copy_n(in.begin() + at + request_head, size, content.begin());
-      received_.push_back({mesh.global_id[cell], cell, donor, k, j, in[at + 4], in[at + 5], in[at + 6] != 0,
-                           static_cast<int>(n), position, Answer::refused, static_cast<int>(contents_.size())});
-      contents_.push_back(content);
-      at += request_head + size;
+      const double volume = in[at + 4];
+      const auto first_content = static_cast<int>(contents_.size());
+      std::size_t end = at + request_head;
+      const auto read_content = [&](int phase) {
+        const int size = fields.phases[phase].n_conserved();
+        std::copy_n(in.begin() + end, size, contents_.emplace_back().begin());
+        end += size;
+      };
+      read_content(k);
+      if (volume < 0) read_content(j);
+      received_.push_back({mesh.global_id[cell], cell, donor, k, j, volume, in[at + 5], in[at + 6] != 0,
+                           static_cast<int>(n), position, Answer::refused, first_content});
+      at = end;
     }
   }
 }
 
 /// Decides on what this rank's cells were asked for.
 void VolumeExchange::serve(const Mesh& mesh, const Fields& fields) {
-  // smallest first, ties by the asking cell: the same order for any partition
+  // negative ones, then the smallest first, ties by the asking cell: the same order for any partition
   order_.resize(received_.size());
   std::iota(order_.begin(), order_.end(), 0);
   std::sort(order_.begin(), order_.end(), [&](std::int32_t i, std::int32_t j) {
     const Request &a = received_[i], &b = received_[j];
-    return std::tie(a.donor, a.j, a.alpha, a.from_id, a.k) < std::tie(b.donor, b.j, b.alpha, b.from_id, b.k);
+    return std::tuple(a.donor, a.drawn(), a.alpha, a.from_id, a.k) <
+           std::tuple(b.donor, b.drawn(), b.alpha, b.from_id, b.k);
   });
   double budget = 0;
   const Request* former = nullptr;
   for (const std::int32_t i : order_) {
     Request& r = received_[i];
-    const double available = fields.phases[r.j].alpha[r.donor] * fields.volume[r.donor];
-    if (!former || r.donor != former->donor || r.j != former->j) budget = available;
+    const double V = fields.volume[r.donor], size = std::fabs(r.volume);
+    if (!former || r.donor != former->donor || r.drawn() != former->drawn())
+      budget = fields.phases[r.drawn()].alpha[r.donor] * V - promised(r.donor, r.drawn());
     former = &r;
     const bool local = r.neighbour < 0;
-    const bool granted = !r.dust_only && r.volume <= budget;
+    const bool granted = !r.dust_only && has(budget, size, V);
     const bool dust = !granted && (r.dust_only || std::fabs(r.alpha) < dust_threshold);
     r.answer = granted ? Answer::granted : dust ? Answer::dust : Answer::refused;
     if (granted || dust)
@@ -263,10 +303,14 @@ void VolumeExchange::serve(const Mesh& mesh, const Fields& fields) {
                            local ? content_of(fields, r.k, r.cell) : contents_[r.content]});
     Content given{};
     if (granted) {
-      budget -= r.volume;
-      extractions_.push_back({r.donor, r.j, r.volume});
-      given = content_of(fields, r.j, r.donor);
-      for (double& value : given) value *= r.volume / available;
+      budget -= size;
+      if (r.negative()) {
+        deposits_.push_back(
+            {r.donor, r.j, r.from_id, size, local ? part_of(fields, r.j, r.cell, size) : contents_[r.content + 1]});
+      } else {
+        extractions_.push_back({r.donor, r.j, size});
+        given = part_of(fields, r.j, r.donor, size);
+      }
     }
     if (local)
       settle(mesh, r, r.answer, given);
@@ -288,7 +332,7 @@ void VolumeExchange::collect_answers(const Mesh& mesh, const Fields& fields) {
     if (r.neighbour < 0) continue;
     std::vector<double>& out = answers_.outgoing(r.neighbour);
     out.push_back(static_cast<double>(r.answer));
-    if (r.answer != Answer::granted) continue;
+    if (r.answer != Answer::granted || r.negative()) continue;
     for (int c = 0; c < fields.phases[r.j].n_conserved(); ++c) out.push_back(contents_[r.content][c]);
   }
   answers_.start();
@@ -300,7 +344,7 @@ void VolumeExchange::collect_answers(const Mesh& mesh, const Fields& fields) {
     std::size_t& at = read_[r.neighbour];
     const Answer answer = static_cast<Answer>(static_cast<int>(in[at++]));
     Content content{};
-    if (answer == Answer::granted) {
+    if (answer == Answer::granted && !r.negative()) {
       const int size = fields.phases[r.j].n_conserved();
       std::copy_n(in.begin() + at, size, content.begin());
       at += size;
@@ -318,7 +362,10 @@ void VolumeExchange::settle(const Mesh& mesh, const Request& r, Answer answer, c
   if (answer == Answer::granted) {
     ++counters_.exchanges;
     volume_of_cell_[r.cell] += std::fabs(r.volume);
-    deposits_.push_back({r.cell, r.j, mesh.global_id[r.donor], r.volume, content});
+    if (r.negative())
+      extractions_.push_back({r.cell, r.j, -r.volume});
+    else
+      deposits_.push_back({r.cell, r.j, mesh.global_id[r.donor], r.volume, content});
   } else {
     ++counters_.dust;
     deposits_.push_back({r.cell, r.j, mesh.global_id[r.donor], 0, {}});
@@ -378,14 +425,15 @@ void VolumeExchange::apply(Fields& fields) {
 
 const std::vector<std::int32_t>& VolumeExchange::run(const Mesh& mesh, const Faces& faces, Fields& fields, double dt,
                                                      std::span<const std::int32_t> candidates,
-                                                     const std::vector<std::pair<std::int32_t, int>>& forced) {
+                                                     const std::vector<std::pair<std::int32_t, int>>& forced,
+                                                     const Expected& expected) {
   touched_.clear();
   given_.clear();
   taken_.clear();
   deposits_.clear();
   extractions_.clear();
   share_alpha(mesh, fields);
-  ask(mesh, faces, fields, dt, candidates, forced);
+  ask(mesh, faces, fields, dt, candidates, forced, expected);
   deliver(mesh, fields);
   serve(mesh, fields);
   collect_answers(mesh, fields);

@@ -59,7 +59,8 @@ void benchmark(const std::string& name, const std::string& text, int steps) {
 }
 
 std::string scene(const std::string& mesh, const std::string& phases, const std::string& regions) {
-  return "mesh = \"@" + mesh + "\"\nend_time = 1e9\n" + phases + regions + "[boundary]\n\"*\" = \"wall\"\n";
+  return first_order + "mesh = \"@" + mesh + "\"\nend_time = 1e9\n" + phases + regions +
+         "[boundary]\n\"*\" = \"wall\"\n";
 }
 
 const std::string solid = "[phase.aluminium]\nmaterial = \"aluminium\"\n", gas = "[phase.air]\nmaterial = \"air\"\n",

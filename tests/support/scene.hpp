@@ -17,6 +17,14 @@ namespace cobasis::test {
 /// All ranks of the test.
 const Mpi& ranks();
 
+/// First order with diffuse interfaces: at the head of a case's text, and as a change to a case.
+inline const std::string first_order = "scheme = { order = 1, interface = \"diffuse\", low_mach = \"off\" }\n";
+inline const std::pair<std::string, std::string> set_first_order{
+    "scheme", "{ order = 1, interface = \"diffuse\", low_mach = \"off\" }"};
+/// Second order with sharp interfaces.
+inline const std::string second_order = "scheme = { order = 2, interface = \"sharp\" }\n";
+inline const std::pair<std::string, std::string> set_second_order{"scheme", "{ order = 2, interface = \"sharp\" }"};
+
 struct SceneOptions {
   SolverOptions solver;
   std::function<int(std::int64_t, int)> partition;

@@ -11,7 +11,7 @@ namespace {
 
 /// The case to its end, 0.5 ms. Phases are looked at where they fill more than `visible` of a cell.
 Scene run_advection(const Changes& changes, double visible = 0) {
-  Scene scene = make_case("advection", Changes{{"scheme.order", "1"}} + changes, ranks());
+  Scene scene = make_case("advection", Changes{set_first_order} + changes, ranks());
   const double mass_al = balance(*scene.solver, "mass.aluminium"), mass_air = balance(*scene.solver, "mass.air");
   const std::vector<PhaseState>& states = scene.setup.regions[0].filling.states;
   const double u[3] = {states[0].velocity[0].constant(), states[0].velocity[1].constant(),

@@ -22,7 +22,8 @@ double largest_change(const std::vector<std::vector<double>>& a, const std::vect
 TEST_CASE("a solid that flows in displaces the gas at its own speed, with pressure and velocity uniform") {
   const std::string element = GENERATE("3", "4");
   CAPTURE(element);
-  Scene scene = make_scene("mesh = \"@box.geo\"\nmesh_parameters = { n = 30, height = 0.2, element = " + element + R"( }
+  Scene scene = make_scene(
+      first_order + "mesh = \"@box.geo\"\nmesh_parameters = { n = 30, height = 0.2, element = " + element + R"( }
 end_time = 0.5e-3
 [phase.aluminium]
 material = "aluminium"
@@ -39,7 +40,7 @@ left = { type = "inflow", fill = "aluminium", pressure = 1e5, velocity = [400.0,
 right = "transmissive"
 "*" = "symmetry"
 )",
-                           ranks());
+      ranks());
   scene.run();
   const Solver& solver = *scene.solver;
   const double volume = 400 * 0.5e-3 * 0.2;  // u t times the inlet
@@ -65,7 +66,7 @@ TEST_CASE("a solid stretched along and across its slip walls stays at rest betwe
       GENERATE(as<std::string>{}, "mesh = \"@box.geo\"\nmesh_parameters = { n = 12, element = 3 }\n",
                "mesh = \"@box_space.geo\"\nmesh_parameters = { n = 6, element = 4 }\n");
   CAPTURE(mesh);
-  Scene scene = make_scene(mesh + R"(end_time = 1
+  Scene scene = make_scene(first_order + mesh + R"(end_time = 1
 [phase.copper]
 material = "copper"
 [[region]]
@@ -85,7 +86,7 @@ phase.copper = { cobasis = [[1.1, 0, 0], [0, 0.95, 0], [0, 0, 0.98]] }
 }
 
 TEST_CASE("nothing passes a wall, not even round-off") {
-  Scene scene = make_scene(R"(mesh = "@box.geo"
+  Scene scene = make_scene(first_order + R"(mesh = "@box.geo"
 mesh_parameters = { n = 15, element = 3 }
 end_time = 1
 [phase.copper]
@@ -107,7 +108,7 @@ velocity = ["100*x*y", "-30*x"]
 }
 
 TEST_CASE("what leaves through a periodic boundary comes back on the other side") {
-  Scene scene = make_scene(R"case(mesh = "@box.geo"
+  Scene scene = make_scene(first_order + R"case(mesh = "@box.geo"
 mesh_parameters = { n = 20, element = 3 }
 end_time = 1
 [phase.gas]

@@ -18,8 +18,9 @@ Scene carried(bool space, const std::string& around, double pressure, const std:
       fmt::format("{{ cobasis = [[{0}, {1}, 0.0], [-{1}, {0}, 0.0], [0.0, 0.0, 1.02]] }}", c, s);
   const std::string state = fmt::format("pressure = {}\nvelocity = {}\n", pressure, velocity);
   return make_scene(
-      (space ? "mesh = \"@box_space.geo\"\nmesh_parameters = { n = 10, element = 4 }\n"
-             : "mesh = \"@box.geo\"\nmesh_parameters = { n = 32, element = 3 }\n") +
+      first_order +
+          (space ? "mesh = \"@box_space.geo\"\nmesh_parameters = { n = 10, element = 4 }\n"
+                 : "mesh = \"@box.geo\"\nmesh_parameters = { n = 32, element = 3 }\n") +
           fmt::format(R"(end_time = 1
 [phase.aluminium]
 material = "aluminium"

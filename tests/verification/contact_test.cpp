@@ -8,7 +8,7 @@ using namespace cobasis;
 using namespace cobasis::test;
 
 TEST_CASE("copper strikes aluminium in air on triangles: states stay admissible for 300 steps") {
-  Scene scene = make_scene(R"(mesh = "@box.geo"
+  Scene scene = make_scene(first_order + R"(mesh = "@box.geo"
 mesh_parameters = { n = 60, element = 3 }
 end_time = 1
 [phase.copper]
@@ -83,7 +83,7 @@ TEST_CASE("two solids that adhere share the shear stress of the acoustic limit")
   const double exact = z_cu * z_al / (z_cu + z_al) * 2;
   const auto run = [&](const std::string& contact) {
     Scene scene = make_case("sliding",
-                            {{"scheme.order", "1"},
+                            {set_first_order,
                              {"mesh_parameters", "{ n = 500 }"},
                              {"end_time", "8e-5"},
                              {"contact.default", contact},

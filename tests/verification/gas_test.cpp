@@ -13,7 +13,8 @@ using namespace cobasis::test;
 namespace {
 
 std::string tube(int n, const std::string& element, double end_time) {
-  return fmt::format("mesh = \"@tube.geo\"\nmesh_parameters = {{ n = {}, element = {} }}\nend_time = {}\ncfl = 0.8\n",
+  return first_order +
+         fmt::format("mesh = \"@tube.geo\"\nmesh_parameters = {{ n = {}, element = {} }}\nend_time = {}\ncfl = 0.8\n",
                      n, element, end_time);
 }
 std::string halves(const std::string& phase_l, const Gas& l, const std::string& phase_r, const Gas& r) {

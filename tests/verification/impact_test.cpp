@@ -10,7 +10,7 @@ using namespace cobasis::test;
 
 namespace {
 
-const Changes first_order{{"scheme.order", "1"}, {"cfl", "1.0"}};
+const Changes as_reference{set_first_order, {"cfl", "1.0"}};
 
 Changes hexahedra(const std::string& parameters) {
   return {{"mesh", "\"../meshes/tube_space.geo\""},
@@ -20,7 +20,7 @@ Changes hexahedra(const std::string& parameters) {
 }
 
 Scene run_impact(const Changes& changes) {
-  Scene scene = make_case("impact", first_order + changes, ranks());
+  Scene scene = make_case("impact", as_reference + changes, ranks());
   scene.run();
   return scene;
 }

@@ -47,7 +47,7 @@ velocity = [300.0, -20.0)" +
 }
 
 Scene run(const std::string& text, int steps, const SceneOptions& options = {}) {
-  Scene scene = make_scene(text, ranks(), options);
+  Scene scene = make_scene(first_order + text, ranks(), options);
   scene.run(steps);
   return scene;
 }

@@ -12,7 +12,8 @@ using namespace cobasis::test;
 
 namespace {
 
-const std::string square = "mesh = \"@box.geo\"\nmesh_parameters = { n = 24, element = 3 }\nend_time = 1\n";
+const std::string square =
+    first_order + "mesh = \"@box.geo\"\nmesh_parameters = { n = 24, element = 3 }\nend_time = 1\n";
 const std::string walls = "[boundary]\n\"*\" = \"wall\"\n";
 
 /// Cells of `b` with the same place in the plane as those of `a`.
@@ -28,11 +29,11 @@ std::vector<std::int32_t> same_place(const Mesh& a, const Mesh& b) {
 
 /// A box of copper runs into aluminium under prestrain, in air.
 Scene layer(int element, double thickness) {
-  return make_scene(
-      fmt::format(
-          "mesh = \"{}/tests/verification/layer.geo\"\nmesh_parameters = {{ n = 16, element = {}, thickness = {} }}\n",
-          SOURCE_DIR, element, thickness) +
-          R"(end_time = 1
+  return make_scene(first_order +
+                        fmt::format("mesh = \"{}/tests/verification/layer.geo\"\nmesh_parameters = {{ n = 16, element "
+                                    "= {}, thickness = {} }}\n",
+                                    SOURCE_DIR, element, thickness) +
+                        R"(end_time = 1
 [phase.copper]
 material = "copper"
 [phase.air]
@@ -57,11 +58,11 @@ shape = "box"
 fill = "copper"
 pressure = 1e5
 )" + (thickness > 0 ? "low = [0.1, 0.2, -1.0]\nhigh = [0.5, 0.7, 1.0]\n" : "low = [0.1, 0.2]\nhigh = [0.5, 0.7]\n") +
-          R"(velocity = [300.0, -20.0]
+                        R"(velocity = [300.0, -20.0]
 [boundary]
 sides = "wall"
 )" + (thickness > 0 ? "back = \"symmetry\"\nfront = \"symmetry\"\n" : ""),
-      ranks());
+                    ranks());
 }
 
 }  // namespace

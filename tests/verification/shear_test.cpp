@@ -11,8 +11,7 @@ namespace {
 
 void check_errors(int n) {
   Scene scene = make_case(
-      "shear", {{"scheme.order", "1"}, {"cfl", "1.0"}, {"mesh_parameters", "{ n = " + std::to_string(n) + " }"}},
-      ranks());
+      "shear", {set_first_order, {"cfl", "1.0"}, {"mesh_parameters", "{ n = " + std::to_string(n) + " }"}}, ranks());
   scene.run();
   const Result result(scene);
   const Table exact = read_table("shear.csv"), errors = read_table("shear_errors.csv");
@@ -40,7 +39,7 @@ TEST_CASE("the shear test is as accurate as an independent first-order implement
 TEST_CASE("the waves of the shear test are the same whichever tangent carries the slip") {
   const auto run = [](const std::string& v, const std::string& minus_v) {
     Scene scene = make_case("shear",
-                            {{"scheme.order", "1"},
+                            {set_first_order,
                              {"mesh", "\"../meshes/tube_space.geo\""},
                              {"mesh_parameters", "{ n = 100, ny = 1 }"},
                              {"boundary.back", "{ type = \"periodic\", with = \"front\" }"},

@@ -12,7 +12,7 @@ using namespace cobasis::test;
 namespace {
 
 void check_aligned(const Changes& changes) {
-  Scene scene = make_case("sliding", Changes{{"scheme.order", "1"}} + changes, ranks());
+  Scene scene = make_case("sliding", Changes{set_first_order} + changes, ranks());
   scene.run();
   const Result result(scene);
   double dv = 0, du = 0;
@@ -52,7 +52,7 @@ Slip slip_at(double degrees, int element, int n) {
   };
   Scene scene =
       make_case("sliding",
-                {{"scheme.order", "1"},
+                {set_first_order,
                  {"mesh", "\"../meshes/box.geo\""},
                  {"mesh_parameters", fmt::format("{{ length = 2, height = 2, n = {}, element = {} }}", n, element)},
                  {"boundary", "{ \"*\" = \"transmissive\" }"},

@@ -9,15 +9,16 @@ using namespace cobasis::test;
 
 TEST_CASE("a uniform, moving, 12 % pre-sheared solid keeps its velocity and cobasis for 100 steps on any mesh") {
   const Mpi& mpi = ranks();
+  const std::string scheme = GENERATE(first_order, second_order);
   const std::string mesh =
       GENERATE(as<std::string>{}, "mesh = \"@box.geo\"\nmesh_parameters = { n = 20, element = 3 }\n",
                "mesh = \"@box_space.geo\"\nmesh_parameters = { n = 8, element = 4 }\n",
                "mesh = \"@box_space.geo\"\nmesh_parameters = { n = 9, element = 0 }\n");
-  CAPTURE(mesh);
+  CAPTURE(scheme, mesh);
   const bool space = mesh.find("space") != std::string::npos;
   const std::string cobasis = space ? "[[1.01, 0.12, 0.0], [0.0, 0.99, 0.12], [0.03, 0.0, 1.0]]"
                                     : "[[1.01, 0.12, 0.0], [0.03, 0.99, 0.0], [0.0, 0.0, 1.02]]";
-  Scene scene = make_scene(mesh + R"(
+  Scene scene = make_scene(scheme + mesh + R"(
 end_time = 1
 [phase.aluminium]
 material = "aluminium"

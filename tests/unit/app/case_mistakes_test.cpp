@@ -10,6 +10,8 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
+const std::string diffuse_scheme = "[scheme]\ninterface = \"diffuse\"\n";
+
 int line_of(const std::string& text, const std::string& fragment) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(text.find(fragment)), '\n'));
 }
@@ -44,7 +46,7 @@ TEST_CASE("a file that is missing, empty or not TOML is refused") {
 TEST_CASE("unknown keys are refused in every table, with the nearest name") {
   check_mistake(with(rest, "end_time", "cfll = 1\nend_time"), "cfll",
                 {"unknown key \"cfll\"", "allowed: schema, title", "did you mean \"cfl\"?"});
-  check_mistake(rest + "[scheme]\nordre = 1\n", "ordre", {"allowed: order", "did you mean \"order\"?"});
+  check_mistake(rest + "[scheme]\nordre = 1\n", "ordre", {"allowed: accuracy, order", "did you mean \"order\"?"});
   check_mistake(with(rest, "material = \"air\"", "materiel = \"air\"\nmaterial = \"air\""), "materiel",
                 {"allowed: material, eos, elastic, density, void", "\"material\"?"});
   check_mistake(with(rest, "\"air\"", "\"air\"\neos = { gama = 1.4 }"), "gama", {"allowed: type, gamma", "\"gamma\"?"});
@@ -67,9 +69,18 @@ TEST_CASE("keys and words of features that do not exist are refused like unknown
                   {"unknown key", "allowed: schema, title"});
   check_mistake(with(rest, "end_time", "scene = \"axisymmetric\"\nend_time"), "scene", {"allowed: plane, space"});
   check_replaced("\"wall\"", "\"axis\"", {"allowed: wall, symmetry, transmissive, inflow, periodic"});
-  check_mistake(rest + "[scheme]\norder = 2\n", "order", {"order = 2; allowed: a whole number, 1"});
+  check_mistake(rest + "[scheme]\norder = 3\n", "order", {"order = 3; allowed: a whole number"});
+  check_mistake(rest + "[scheme]\ninterface = \"blurred\"\n", "interface", {"allowed: sharp, compressed, diffuse"});
+  check_mistake(rest + "[scheme]\nlimiter = \"minmod\"\n", "limiter", {"allowed: monotone, none"});
   check_mistake(rest + "[contact]\ndefault = \"friction\"\n", "default", {"allowed: sliding, adherence"});
   CHECK(mistakes_in(rest + "[scheme]\norder = 1\n").empty());
+}
+
+TEST_CASE("traces of every phase everywhere are refused with sharp") {
+  const std::string traces = with(rest, "end_time", "alpha_min = 1e-6\nend_time");
+  check_mistake(traces + "[scheme]\ninterface = \"sharp\"\n", "alpha_min",
+                {"alpha_min = 1e-06 with sharp or compressed interfaces", "allowed: 0, or interface = \"diffuse\""});
+  CHECK(mistakes_in(traces + diffuse_scheme).empty());
 }
 
 TEST_CASE("values of the wrong type are refused with the type that is allowed") {
@@ -173,7 +184,7 @@ TEST_CASE("volume fractions sum to one, and with traces every phase has its own"
   check_replaced("fill = \"air\"", "alpha = { air = 1.5 }", {"alpha.air = 1.5", "0 <= alpha.air <= 1"});
   check_mistake(with(rest, "fill = \"air\"", "fill = \"air\"\nalpha = { air = 1.0 }"), "alpha = {",
                 {"both \"fill\" and \"alpha\"", "one of them"});
-  const std::string traces = with(rest, "end_time", "alpha_min = 1e-6\nend_time");
+  const std::string traces = with(rest, "end_time", "alpha_min = 1e-6\nend_time") + diffuse_scheme;
   check_mistake(with(traces, "fill = \"air\"", "alpha = { air = 1.0 }"), "alpha = {",
                 {"alpha of \"copper\" is missing", "alpha_min = 1e-06"});
 }
@@ -207,7 +218,8 @@ TEST_CASE("a void is one, alone in its table, has no state and goes with no trac
   check_mistake(with(free, "{ pressure = 2e5 }", "{}"), "void", {"missing key \"pressure\"", "0 <= pressure"});
   check_mistake(with(free, "[[region]]", "[phase.other]\nvoid = { pressure = 1 }\n[[region]]"),
                 "void = { pressure = 1 }", {"second void beside \"free\""});
-  check_mistake(with(free, "end_time", "alpha_min = 1e-6\nend_time"), "alpha_min", {"void \"free\"", "allowed: 0"});
+  check_mistake(with(free, "end_time", "alpha_min = 1e-6\nend_time") + diffuse_scheme, "alpha_min",
+                {"void \"free\"", "allowed: 0"});
   check_mistake(with(free, "pressure = 1e5", "pressure = 1e5\nphase.free.pressure = 1"), "phase.free.p",
                 {"state of the void"});
   const std::string filled = with(free, "fill = \"air\"\npressure = 1e5", "fill = \"free\"");

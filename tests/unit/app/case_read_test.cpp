@@ -88,8 +88,8 @@ TEST_CASE("a filling is one phase, or fractions of several, with traces where th
   CHECK(filling_of("fill = \"copper\"\npressure = 1").alpha == std::vector<double>{0, 1});
   CHECK(filling_of("alpha = { copper = 0.3, air = 0.7 }\npressure = 1").alpha == std::vector<double>{0.7, 0.3});
   CHECK(filling_of("alpha = { copper = 1 }\npressure = 1").alpha == std::vector<double>{0, 1});
-  const Filling traces =
-      filling_of("fill = \"copper\"\npressure = 3\nvelocity = [5, 6]\ndensity = 9000", "alpha_min = 1e-6\n");
+  const Filling traces = filling_of("fill = \"copper\"\npressure = 3\nvelocity = [5, 6]\ndensity = 9000",
+                                    "alpha_min = 1e-6\nscheme.interface = \"diffuse\"\n");
   CHECK(traces.alpha == std::vector<double>{1e-6, 1 - 1e-6});
   CHECK(traces.states[0].pressure == 3);
   CHECK(traces.states[0].velocity[1].constant() == 6);
@@ -149,11 +149,18 @@ TEST_CASE("contacts hold for a pair in either order, the default for the others"
 }
 
 TEST_CASE("all optional keys of the top level and the output are read") {
-  const Setup setup = read_text("scene = \"space\"\ncfl = 2\nalpha_min = 1e-12\nmax_steps = 1e6\n" + rest +
-                                "[output]\nfields = \"all\"\nprecision = \"float64\"\nhistory_every = 3\ncount = 4\n");
+  const Setup setup =
+      read_text("scene = \"space\"\ncfl = 2\nalpha_min = 1e-12\nmax_steps = 1e6\n" + rest +
+                "[scheme]\norder = 2\ninterface = \"diffuse\"\nlimiter = \"none\"\nlow_mach = \"on\"\n[output]\nfields "
+                "= \"all\"\nprecision = \"float64\"\nhistory_every = 3\ncount = 4\n");
   CHECK(setup.scene == Geometry::space);
   CHECK(setup.cfl == 2);
   CHECK(setup.alpha_min == 1e-12);
+  CHECK(setup.scheme.order == 2);
+  CHECK(setup.scheme.interface == InterfaceTreatment::diffuse);
+  CHECK_FALSE(setup.scheme.limited);
+  CHECK(setup.scheme.low_mach);
+  CHECK(read_text(rest + "[scheme]\ninterface = \"sharp\"\n").scheme.interface == InterfaceTreatment::sharp);
   CHECK(setup.max_steps == 1000000);
   CHECK(setup.output.fields ==
         std::vector<std::string>{"alpha", "density", "velocity", "pressure", "stress", "cobasis", "energy"});

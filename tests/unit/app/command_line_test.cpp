@@ -80,9 +80,9 @@ TEST_CASE("wrong usage is refused with what is allowed") {
     CHECK_THROWS_AS(read_command_line(arguments), InputError);
     CHECK_THROWS_WITH(read_command_line(arguments), Contains(found) && Contains(allowed));
   };
-  refuses({}, "no command", "run, check, info, help");
+  refuses({}, "no command", "run, check, study, info, help");
   refuses({"rnu", "a.toml"}, "rnu", "did you mean \"run\"?");
-  refuses({"new", "a"}, "\"new\"", "run, check, info, help");
+  refuses({"new", "a"}, "\"new\"", "run, check, study, info, help");
   refuses({"run"}, "no file", "cobasis run CASE");
   refuses({"run", "a.toml", "--restart"}, "--restart", "--trust-geo");
   refuses({"run", "a.toml", "--quite"}, "--quite", "did you mean \"--quiet\"?");

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <variant>
 
 #include "app/integrals.hpp"
 #include "output_scene.hpp"
@@ -9,7 +8,7 @@
 namespace cobasis::test {
 namespace {
 
-double integral(const Mesh& mesh, std::vector<double> alpha, const std::variant<Extent, Quantile>& what,
+double integral(const Mesh& mesh, std::vector<double> alpha, const decltype(IntegralSetup::what)& what,
                 Geometry geometry = Geometry::plane) {
   Snapshot snapshot;
   snapshot.phases.resize(1);

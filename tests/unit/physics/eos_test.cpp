@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "dual.hpp"
+#include "math/dual.hpp"
 #include "random_states.hpp"
 
 using namespace cobasis;

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
-#include "dual.hpp"
+#include "math/dual.hpp"
 #include "physics/material_library.hpp"
 #include "random_states.hpp"
 

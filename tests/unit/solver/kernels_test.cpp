@@ -26,23 +26,36 @@ const std::vector<BusyScene> scenes = {
     {"all kinds", {"copper", "water", "aluminium", "void"}, Contact::adherence},
 };
 
+constexpr auto diffuse = InterfaceTreatment::diffuse, sharp_planes = InterfaceTreatment::sharp;
+const std::vector<Scheme> schemes = {{.order = 1, .interface = diffuse},
+                                     {.order = 2, .interface = diffuse},
+                                     {.order = 2, .interface = diffuse, .limited = false},
+                                     {.order = 1, .interface = sharp_planes},
+                                     {.order = 2, .interface = sharp_planes}};
+
 }  // namespace
 
 TEST_CASE("packs of cells and faces give what one at a time gives") {
+  const Scheme scheme = GENERATE(from_range(schemes));
   for (const CellType type :
        {CellType::quadrilateral, CellType::triangle, CellType::hexahedron, CellType::tetrahedron}) {
     const bool plane = type == CellType::quadrilateral || type == CellType::triangle;
     for (const BusyScene& scene : scenes) {
       for (const double mixed_in : {0.0, 1e-6}) {
-        if (mixed_in > 0 && scene.materials.size() == 1) continue;
+        const bool several = scene.materials.size() > 1, sharp = scheme.interface == InterfaceTreatment::sharp;
+        if ((mixed_in > 0 && (!several || sharp)) || (sharp && !several) || (several && !scheme.limited)) continue;
         Setup setup = busy_setup(scene.materials, plane, scene.contact, mixed_in);
         setup.alpha_min = mixed_in;
+        setup.scheme = scheme;
         const int n = plane ? 11 : type == CellType::hexahedron ? 5 : 4;
+        SolverOptions one_at_a_time;
+        one_at_a_time.scalar = true;
         SmallScene packs = small_scene(setup, small_mesh(type, n));
-        SmallScene scalar = small_scene(setup, small_mesh(type, n), {.scalar = true, .before_halo_send = {}});
-        CAPTURE(shape_of(type).name, scene.name, mixed_in);
+        SmallScene scalar = small_scene(setup, small_mesh(type, n), one_at_a_time);
+        CAPTURE(shape_of(type).name, scene.name, mixed_in, scheme.order, sharp);
         double dt = 0, same = 0;
-        for (int step = 0; step < 3; ++step) {
+        const int steps = scheme.limited && !sharp ? 3 : 1;  // the bodies are not at peace
+        for (int step = 0; step < steps; ++step) {
           dt = packs.solver->advance(1);
           same = scalar.solver->advance(1);
         }

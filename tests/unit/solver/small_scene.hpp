@@ -171,6 +171,7 @@ inline Setup busy_setup(const std::vector<std::string>& materials, bool plane, C
   setup.case_file = "busy";
   setup.scene = plane ? Geometry::plane : Geometry::space;
   setup.end_time = 1;
+  setup.scheme = {.order = 1, .interface = InterfaceTreatment::diffuse};
   setup.default_contact = contact;
   for (const std::string& material : materials) setup.phases.push_back(phase_of(material));
   const int n = static_cast<int>(materials.size());

@@ -17,7 +17,8 @@ struct Strip {
   Fields fields;
   std::unique_ptr<VolumeExchange> exchange;
 
-  explicit Strip(const std::vector<double>& x) : mesh(strip(x)), faces(make_faces(mesh)) {
+  explicit Strip(const std::vector<double>& x, const ExchangeThresholds& thresholds = diffuse_exchange)
+      : mesh(strip(x)), faces(make_faces(mesh)) {
     fields.dimension = 2;
     fields.n_owned = mesh.n_owned, fields.n_all = mesh.n_all();
     fields.volume.assign(mesh.volume.begin(), mesh.volume.end());
@@ -31,7 +32,7 @@ struct Strip {
     s.kind = Kind::solid;
     for (int c = 0; c < Plane::n_cobasis; ++c)
       s.conserved.push_back(AlignedVector<double>(mesh.n_all(), identity_cobasis(2, c)));
-    exchange = std::make_unique<VolumeExchange>(one_rank(), mesh, fields);
+    exchange = std::make_unique<VolumeExchange>(one_rank(), mesh, fields, thresholds);
   }
 
   std::int32_t cell(double x) const { return cell_at(mesh, x); }
@@ -193,10 +194,102 @@ TEST_CASE("a negative volume fraction, from round-off, is filled up from the nei
   check_close(s.totals(solid), before, 1e-15);
 }
 
+TEST_CASE("a negative volume goes to the neighbour with as much of the cell's own other phase") {
+  // the neighbour's tiny volume of liquid, of quite another state, has no part in it
+  for (const double tiny : {0.0, 1e-14, 1e-9, 1e-3}) {
+    CAPTURE(tiny);
+    const double exact = tiny == 1e-14 ? 1e-9 : 1e-14;  // so little is swept up at the same time, without volume
+    Strip s({0, 1, 3});
+    s.set(2, 1 - tiny, 5), s.set(0.5, -2e-3, 0.1);
+    const std::vector<double> rigid = s.totals(solid), wet = s.totals(liquid);
+    const std::vector<double> own = s.intensive(liquid, 0.5), alien = s.intensive(liquid, 2);
+    s.run();
+    CHECK(s.exchange->counters().exchanges == 1);
+    CHECK(s.alpha(solid, 0.5) == 0);
+    CHECK(s.alpha(liquid, 0.5) == 1);
+    CHECK(s.fields.pure[s.cell(0.5)] == liquid);
+    CHECK(s.alpha(solid, 2) == Approx(1 - tiny - 1e-3).epsilon(exact));
+    CHECK(s.alpha(liquid, 2) == Approx(tiny + 1e-3).epsilon(100 * exact));
+    check_close(s.totals(solid), rigid, exact);
+    check_close(s.totals(liquid), wet, exact);
+    check_close(s.intensive(liquid, 0.5), own, exact);
+    const double mixed = (2e-3 * own[0] + 2 * tiny * (tiny > 0 ? alien[0] : 0)) / (2e-3 + 2 * tiny);
+    CHECK(s.intensive(liquid, 2)[0] == Approx(mixed).epsilon(100 * exact));
+  }
+}
+
+TEST_CASE("a negative volume needs a neighbour with more of the phase than is missing") {
+  Strip s({0, 1, 2});
+  s.set(0.5, 1e-2), s.set(1.5, -1.1e-2);
+  s.run();
+  s.check_counters(0, 1, 0);
+  CHECK(s.alpha(solid, 1.5) == -1.1e-2);
+  // a larger volume at too small a fraction
+  Strip wide({0, 10, 11});
+  wide.set(5, 1e-2), wide.set(10.5, -1.1e-2);
+  wide.run();
+  wide.check_counters(0, 1, 0);
+  // a larger fraction of too small a volume
+  Strip narrow({0, 1, 1.01});
+  narrow.set(0.5, -1e-3), narrow.set(1.005, 0.09);
+  narrow.run();
+  narrow.check_counters(0, 1, 0);
+}
+
+TEST_CASE("several negative volumes leave a neighbour no less than nothing") {
+  Strip s({0, 4, 4.15, 8.15});  // 0.15 * 0.6 = 0.09 of solid; 4 * 0.01 and 4 * 0.02 are missing
+  s.set(2, -0.01), s.set(4.075, 0.6), s.set(6.15, -0.02);
+  const std::vector<double> rigid = s.totals(solid), wet = s.totals(liquid);
+  s.run();
+  s.check_counters(1, 1, 0);
+  CHECK(s.alpha(solid, 6.15) == 0);
+  CHECK(s.alpha(solid, 2) == -0.01);
+  CHECK(s.alpha(solid, 4.075) == Approx(0.6 - 4 * 0.02 / 0.15).epsilon(1e-13));
+  check_close(s.totals(solid), rigid, 1e-14);
+  check_close(s.totals(liquid), wet, 1e-14);
+}
+
+TEST_CASE("what a cell gives with its negative volume it does not give to others") {
+  constexpr int gas = 2;
+  Strip s({0, 1, 1.01, 12.11});
+  Phase& third = s.fields.phases.emplace_back();
+  third.alpha.assign(s.mesh.n_all(), 0);
+  third.conserved.assign(4, AlignedVector<double>(s.mesh.n_all(), 0));
+  s.exchange = std::make_unique<VolumeExchange>(one_rank(), s.mesh, s.fields);
+  const auto fill = [&](double x, double alpha_solid, double alpha_gas) {
+    s.set(x, alpha_solid, 0.1);
+    const std::int32_t i = s.cell(x);
+    const double before = s.fields.phases[liquid].alpha[i], after = before - alpha_gas;
+    s.fields.phases[liquid].alpha[i] = after, s.fields.phases[gas].alpha[i] = alpha_gas;
+    for (int c = 0; c < 4; ++c) {
+      s.fields.phases[liquid].conserved[c][i] *= after / before;
+      third.conserved[c][i] = alpha_gas * (c + 1 + x);
+    }
+  };
+  // the cell in the middle holds 0.007 of liquid and gives 0.002 with its solid; its neighbour asks for 0.0055 for gas
+  fill(0.5, 0.9, 0), fill(1.005, -0.2, 0.5), fill(6.56, 0.4, 5e-4);
+  const std::vector<double> before[] = {s.totals(solid), s.totals(liquid), s.totals(gas)};
+  s.run();
+  s.check_counters(1, 1, 0);
+  CHECK(s.alpha(liquid, 1.005) == Approx(0.5));
+  CHECK(s.alpha(gas, 6.56) == 5e-4);
+  for (const int k : {solid, liquid, gas}) check_close(s.totals(k), before[k], 1e-14);
+}
+
+TEST_CASE("a donor keeps more than round-off of the phase it gives") {
+  for (const double left : {0.5e-6, 2e-6}) {
+    Strip s({0, 25, 26});  // 25 * 8e-4 = 0.02
+    s.set(12.5, 8e-4), s.set(25.5, 0.98 - left);
+    s.run();
+    CAPTURE(left);
+    CHECK(s.exchange->counters().exchanges == (left > 1e-6 ? 1 : 0));
+  }
+}
+
 TEST_CASE("the threshold follows the distance the material moves in the step") {
-  // 0.1 dt sum of A |u_n| / (2 V) = 0.1 dt (1 + 1) 1 m/s / 2 m^2, at most 1e-3, at least 1e-9
-  const auto exchanged = [](double alpha, double dt) {
-    Strip s({0, 1, 2});
+  // 0.1 dt sum of A |u_n| / (2 V) = 0.1 dt (1 + 1) 1 m/s / 2 m^2, at most 1e-3, at least 1e-9; beside planes 3e-2, 1e-8
+  const auto exchanged = [](double alpha, double dt, const ExchangeThresholds& thresholds = diffuse_exchange) {
+    Strip s({0, 1, 2}, thresholds);
     s.set(0.5, 0.5), s.set(1.5, alpha);
     s.run(dt);
     return s.exchange->counters().exchanges == 1;
@@ -207,6 +300,25 @@ TEST_CASE("the threshold follows the distance the material moves in the step") {
   CHECK_FALSE(exchanged(1.01e-4, 1e-3));
   CHECK(exchanged(0.99e-9, 0));
   CHECK_FALSE(exchanged(1.01e-9, 0));
+  CHECK(exchanged(0.0299, 1, sharp_exchange));
+  CHECK_FALSE(exchanged(0.0301, 1, sharp_exchange));
+  CHECK(exchanged(0.99e-4, 1e-3, sharp_exchange));
+  CHECK_FALSE(exchanged(1.01e-4, 1e-3, sharp_exchange));
+  CHECK(exchanged(0.99e-8, 0, sharp_exchange));
+  CHECK_FALSE(exchanged(1.01e-8, 0, sharp_exchange));
+}
+
+TEST_CASE("what may itself leave a donor is not given away, up to the largest threshold") {
+  // the middle cell has 0.025 of liquid, which the right one takes; the left one asks for some of it
+  Strip s({0, 1, 2, 3}, sharp_exchange);
+  s.set(0.5, 1e-3), s.set(1.5, 0.975), s.set(2.5, 0.4);
+  const std::vector<double> rigid = s.totals(solid), wet = s.totals(liquid);
+  s.run();
+  CHECK(s.exchange->counters().exchanges == 1);
+  CHECK(s.alpha(solid, 0.5) == 1e-3);
+  CHECK(s.alpha(liquid, 1.5) == 0);
+  check_close(s.totals(solid), rigid, 1e-15);
+  check_close(s.totals(liquid), wet, 1e-15);
 }
 
 TEST_CASE("a fragment is exchanged by force whatever the threshold, with a partner that has enough of its phase") {

@@ -1,0 +1,384 @@
+#include "solver/plane_cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "math/pack.hpp"
+#include "mesh/cell_shape.hpp"
+#include "mesh/geometry.hpp"
+#include "solver/simplex_below.hpp"
+
+namespace cobasis {
+namespace {
+
+// --- the cell as simplices ---
+
+constexpr int most_simplices = CellCorners::most_simplices;
+constexpr int most_packs = most_simplices / pack_width;
+static_assert(most_simplices % pack_width == 0);
+
+/// Simplices as numbers of CellCorners::point; corner i of simplex s is corner[i][s]. Those that the type lacks have
+/// all corners in point 0.
+struct Split {
+  int n_points = 0, n_simplices = 0;
+  std::array<std::array<std::int32_t, most_simplices>, 4> corner{};
+
+  constexpr void add(std::array<int, 4> points) {
+    for (int i = 0; i < 4; ++i) corner[i][n_simplices] = points[i];
+    ++n_simplices;
+  }
+  constexpr int n_packs() const { return (n_simplices + pack_width - 1) / pack_width; }
+};
+
+constexpr Split split_of(const CellShape& shape) {
+  Split split;
+  split.n_points = shape.n_corners;
+  if (shape.dimension == 2) {
+    for (int i = 2; i < shape.n_corners; ++i) split.add({0, i - 1, i, 0});
+    return split;
+  }
+  if (shape.n_corners == 4) {
+    split.add({0, 1, 2, 3});
+    return split;
+  }
+  int n_quadrilaterals = 0;
+  for (int f = 0; f < shape.n_faces; ++f) n_quadrilaterals += shape.faces[f].size == 4;
+  const int center = shape.n_corners + n_quadrilaterals;
+  for (int f = 0; f < shape.n_faces; ++f) {
+    const FaceCorners& face = shape.faces[f];
+    if (face.size == 3) {
+      split.add({center, face.corner[0], face.corner[1], face.corner[2]});
+      continue;
+    }
+    for (int i = 0; i < 4; ++i) split.add({center, face.corner[i], face.corner[(i + 1) % 4], split.n_points});
+    ++split.n_points;
+  }
+  ++split.n_points;
+  return split;
+}
+
+constexpr std::array<Split, 6> splits{split_of(cell_shapes[0]), split_of(cell_shapes[1]), split_of(cell_shapes[2]),
+                                      split_of(cell_shapes[3]), split_of(cell_shapes[4]), split_of(cell_shapes[5])};
+
+constexpr const Split& split_of(CellType type) { return splits[static_cast<std::size_t>(type)]; }
+
+/// Heights n·x of the cell's points.
+struct Heights {
+  std::array<double, CellCorners::most_points> of{};
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+
+  Heights(const CellCorners& cell, const Point& n) : Heights(cell, n, 0, 0) {}
+
+  /// Heights that are d but for `tolerance` are d.
+  Heights(const CellCorners& cell, const Point& n, double d, double tolerance) {
+    const int n_points = split_of(cell.type).n_points;
+    for (int i = 0; i < n_points; ++i) {
+      of[i] = dot(n, cell.point[i]);
+      if (std::abs(of[i] - d) < tolerance) of[i] = d;
+      lowest = std::min(lowest, of[i]);
+      highest = std::max(highest, of[i]);
+    }
+  }
+};
+
+// --- a cell below a height ---
+
+template <int D>
+class CellBelow {
+ public:
+  CellBelow(const CellCorners& cell, const Heights& heights) : n_packs_(split_of(cell.type).n_packs()) {
+    const Split& split = split_of(cell.type);
+    for (int k = 0; k < n_packs_; ++k) {
+      std::array<Pack, D + 1> h;
+      for (int i = 0; i <= D; ++i)
+        h[i] = gather<Pack>(heights.of.data(), load_indices<Pack>(&split.corner[i][k * pack_width]));
+      simplices_[k] = SortedSimplex<D, Pack>(h);
+      volume_[k] = load<Pack>(&cell.simplex_volume[k * pack_width]);
+    }
+  }
+
+  double volume(double d) const {
+    Pack sum = 0.0;
+    for (int k = 0; k < n_packs_; ++k) sum += volume_[k] * simplices_[k].below(d).fraction;
+    return reduce(sum);
+  }
+
+  std::pair<double, double> volume_and_area(double d) const {
+    Pack sum = 0.0, slope = 0.0;
+    for (int k = 0; k < n_packs_; ++k) {
+      const Below<Pack> part = simplices_[k].below(d);
+      sum += volume_[k] * part.fraction;
+      slope += volume_[k] * part.density;
+    }
+    return {reduce(sum), reduce(slope)};
+  }
+
+ private:
+  int n_packs_;
+  std::array<SortedSimplex<D, Pack>, most_packs> simplices_;
+  std::array<Pack, most_packs> volume_;
+};
+
+/// The height below which `target` of the cell's volume lies, 0 < target <= half of it.
+template <int D>
+double height_of(const CellCorners& cell, const Heights& heights, double target) {
+  const CellBelow<D> below(cell, heights);
+  // Between two heights of points that follow each other the volume is a polynomial of degree D.
+  std::array<double, CellCorners::most_points> level = heights.of;
+  int low = 0, high = split_of(cell.type).n_points - 1;
+  std::sort(level.begin(), level.begin() + high + 1);
+  double volume_low = 0, volume_high = cell.volume;
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    const double volume = below.volume(level[middle]);
+    (volume <= target ? low : high) = middle;
+    (volume <= target ? volume_low : volume_high) = volume;
+  }
+  double a = level[low], b = level[high];
+  const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
+  const auto [volume_middle, area] = below.volume_and_area(middle);
+  const double c1 = area * half, c2 = 0.5 * ((volume_high - volume_middle) + (volume_low - volume_middle));
+  const double c3 = 0.5 * (volume_high - volume_low) - c1;
+  // Newton's method between bounds: bisect where it would leave them.
+  double t_low = -1, t_high = 1, t = volume_middle > target ? -0.5 : 0.5;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    const double excess = volume_middle - target + t * (c1 + t * (c2 + t * c3));
+    (excess > 0 ? t_high : t_low) = t;
+    double next = t - excess / (c1 + t * (2 * c2 + t * 3 * c3));
+    if (!(next > t_low && next < t_high)) next = 0.5 * (t_low + t_high);
+    if (std::abs(next - t) < 1e-10) break;
+    t = next;
+  }
+  // The polynomial is exact to round-off of the cell's volume; slivers want that of their own.
+  double d = middle + half * t;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    const auto [volume, slope] = below.volume_and_area(d);
+    const double excess = volume - target;
+    (excess > 0 ? b : a) = d;
+    double next = d - excess / slope;
+    if (!(next >= a && next <= b)) next = 0.5 * (a + b);
+    const bool converged = std::abs(excess) <= 1e-8 * target || next == d;
+    d = next;
+    if (converged) break;
+  }
+  return d;
+}
+
+/// Adds volume times section and moment of the section of one simplex.
+template <int D>
+void add_section(const std::array<const Point*, D + 1>& corner, std::array<double, D + 1> h, double d, double volume,
+                 double& area, Point& moment) {
+  std::array<int, D + 1> at;
+  for (int i = 0; i <= D; ++i) {
+    int j = i;
+    const double height = h[i];
+    for (; j > 0 && h[j - 1] > height; --j) h[j] = h[j - 1], at[j] = at[j - 1];
+    h[j] = height, at[j] = i;
+  }
+  if (d <= h[0] || d > h[D]) return;
+  const auto p = [&](int i) -> const Point& { return *corner[at[i]]; };
+  const auto r = [&](int i, int j) { return part_below(d, h[i], inverse_gap(h[i], h[j])); };
+  const auto on_edge = [&](int i, int j) { return p(i) + r(i, j) * (p(j) - p(i)); };
+  if constexpr (D == 2) {
+    const double length = 2 * r(0, 1) * (1 - r(1, 2)) * inverse_gap(h[0], h[2]) * volume;
+    const Point bend = d <= h[1] ? on_edge(0, 1) : on_edge(1, 2);
+    area += length;
+    moment = moment + 0.5 * length * (bend + on_edge(0, 2));
+  } else {
+    // The triangles (x01 or x12, x02, x03) and (x12 or x23, x13, x03).
+    const double scale = 3 * inverse_gap(h[0], h[3]) * volume;
+    const double first = scale * r(0, 1) * r(0, 2) * (1 - r(1, 2));
+    const double second = scale * r(1, 2) * (1 - r(1, 3)) * (1 - r(2, 3));
+    const Point x03 = on_edge(0, 3);
+    area += first + second;
+    if (first != 0) moment = moment + first / 3 * ((d <= h[1] ? on_edge(0, 1) : on_edge(1, 2)) + on_edge(0, 2) + x03);
+    if (second != 0) moment = moment + second / 3 * ((d <= h[2] ? on_edge(1, 2) : on_edge(2, 3)) + on_edge(1, 3) + x03);
+  }
+}
+
+template <int D>
+PlaneSection section_in(const CellCorners& cell, const Heights& heights, double d) {
+  const Split& split = split_of(cell.type);
+  double area = 0;
+  Point moment;
+  for (int s = 0; s < split.n_simplices; ++s) {
+    std::array<const Point*, D + 1> corner;
+    std::array<double, D + 1> h;
+    for (int i = 0; i <= D; ++i) corner[i] = &cell.point[split.corner[i][s]], h[i] = heights.of[split.corner[i][s]];
+    add_section<D>(corner, h, d, cell.simplex_volume[s], area, moment);
+  }
+  if (!(area > 0)) return {};
+  return {area, 1 / area * moment};
+}
+
+// --- faces ---
+
+/// The times t in [low, high], in that order, at which the plane sweeps over a simplex of a face.
+struct Sweep {
+  double low, high;
+
+  /// Means of 1, A and A^2 over the part of the sweep between h and k, times its length; A = (t - from) * inverse.
+  struct Means {
+    double zeroth, first, second;
+  };
+  Means between(double h, double k, double from, double inverse, double second_inverse) const {
+    const double a = std::clamp(low, h, k), b = std::clamp(high, h, k);
+    const double p = (a - from) * inverse, q = (b - from) * inverse;
+    const double u = (a - from) * second_inverse, v = (b - from) * second_inverse;
+    return {b - a, 0.5 * (b - a) * (p + q), (b - a) / 6 * (2 * p * u + p * v + q * u + 2 * q * v)};
+  }
+  double after(double h) const { return std::max(0.0, high - std::max(low, h)); }
+};
+
+double mean_below(std::array<double, 2> h, const Sweep& sweep) {
+  sort_pair(h[0], h[1]);
+  const double inverse = inverse_gap(h[0], h[1]);
+  if (sweep.low == sweep.high) return part_below(sweep.low, h[0], inverse);
+  return (sweep.between(h[0], h[1], h[0], inverse, 0).first + sweep.after(h[1])) / (sweep.high - sweep.low);
+}
+
+double mean_below(std::array<double, 3> h, const Sweep& sweep) {
+  if (sweep.low == sweep.high) return SortedSimplex<2, double>(h).below(sweep.low).fraction;
+  sort_pair(h[0], h[1]), sort_pair(h[1], h[2]), sort_pair(h[0], h[1]);
+  const double i01 = inverse_gap(h[0], h[1]), i02 = inverse_gap(h[0], h[2]), i12 = inverse_gap(h[1], h[2]);
+  const Sweep::Means above = sweep.between(h[1], h[2], h[2], i12, i02);
+  return (sweep.between(h[0], h[1], h[0], i01, i02).second + (above.zeroth - above.second) + sweep.after(h[2])) /
+         (sweep.high - sweep.low);
+}
+
+/// Quadrilaterals: the mean over their four triangles, weighted as the mesh weighs them for the face's centroid.
+double mean_below(const FaceOutline& face, const std::array<double, 4>& h, const Sweep& sweep) {
+  if (face.size == 2) return mean_below(std::array{h[0], h[1]}, sweep);
+  if (face.size == 3) return mean_below(std::array{h[0], h[1], h[2]}, sweep);
+  const auto& p = face.corner;
+  const Point normal = cross(p[2] - p[0], p[3] - p[1]);
+  const Point m = 0.25 * (p[0] + p[1] + p[2] + p[3]);
+  const double h_m = 0.25 * (h[0] + h[1] + h[2] + h[3]);
+  double whole = 0, below = 0;
+  for (int i = 0; i < 4; ++i) {
+    const int j = (i + 1) % 4;
+    const double weight = dot(cross(p[i] - m, p[j] - m), normal);
+    whole += weight;
+    below += weight * mean_below(std::array{h[i], h[j], h_m}, sweep);
+  }
+  return below / whole;
+}
+
+std::span<const std::int32_t> nodes_of(const Mesh& mesh, std::int32_t cell) {
+  return std::span(mesh.cell_nodes)
+      .subspan(mesh.cell_node_begin[cell], mesh.cell_node_begin[cell + 1] - mesh.cell_node_begin[cell]);
+}
+
+FaceOutline outline(const Mesh& mesh, std::int32_t cell, int local, const Point& center) {
+  const FaceCorners& face = shape_of(mesh.cell_type[cell]).faces[local];
+  const auto nodes = nodes_of(mesh, cell);
+  FaceOutline result;
+  result.size = face.size;
+  for (int i = 0; i < face.size; ++i) result.corner[i] = mesh.nodes[nodes[face.corner[i]]] - center;
+  return result;
+}
+
+}  // namespace
+
+CellCorners corners_of(const Mesh& mesh, std::int32_t cell) {
+  CellCorners result;
+  result.type = mesh.cell_type[cell];
+  const CellShape& shape = shape_of(result.type);
+  const Split& split = split_of(result.type);
+  const auto nodes = nodes_of(mesh, cell);
+  auto& point = result.point;
+  for (int i = 0; i < shape.n_corners; ++i) point[i] = mesh.nodes[nodes[i]] - mesh.centroid[cell];
+  if (shape.n_corners < split.n_points) {
+    int n = shape.n_corners;
+    for (int f = 0; f < shape.n_faces; ++f) {
+      const auto& c = shape.faces[f].corner;
+      if (shape.faces[f].size == 4) point[n++] = 0.25 * (point[c[0]] + point[c[1]] + point[c[2]] + point[c[3]]);
+    }
+    Point sum;
+    for (int i = 0; i < shape.n_corners; ++i) sum = sum + point[i];
+    point[n] = 1.0 / shape.n_corners * sum;
+  }
+  for (int s = 0; s < split.n_simplices; ++s) {
+    const auto edge = [&](int i) { return point[split.corner[i][s]] - point[split.corner[0][s]]; };
+    const Point normal = cross(edge(1), edge(2));
+    result.simplex_volume[s] = shape.dimension == 2 ? 0.5 * normal.z : dot(normal, edge(3)) / 6;
+    result.volume += result.simplex_volume[s];
+  }
+  return result;
+}
+
+double volume_below(const CellCorners& cell, const CutPlane& plane) {
+  const Heights heights(cell, plane.n);
+  if (plane.d <= heights.lowest) return 0;
+  if (plane.d >= heights.highest) return 1;
+  const double below = shape_of(cell.type).dimension == 2 ? CellBelow<2>(cell, heights).volume(plane.d)
+                                                          : CellBelow<3>(cell, heights).volume(plane.d);
+  return std::clamp(below / cell.volume, 0.0, 1.0);
+}
+
+double place_plane(const CellCorners& cell, const Point& n, double fraction) {
+  // The smaller side keeps its relative accuracy.
+  const bool flipped = fraction > 0.5;
+  const double part = flipped ? 1 - fraction : fraction, sign = flipped ? -1 : 1;
+  const Heights heights(cell, sign * n);
+  if (part <= 0) return sign * heights.lowest;
+  return sign * (shape_of(cell.type).dimension == 2 ? height_of<2>(cell, heights, part * cell.volume)
+                                                    : height_of<3>(cell, heights, part * cell.volume));
+}
+
+PlaneSection section(const CellCorners& cell, const CutPlane& plane) {
+  // Round-off must not tear a face that lies in the plane.
+  double size = 0;
+  for (int i = 0; i < shape_of(cell.type).n_corners; ++i) size = std::max(size, dot(cell.point[i], cell.point[i]));
+  const Heights heights(cell, plane.n, plane.d, 1e-15 * std::sqrt(size));
+  if (plane.d <= heights.lowest || plane.d > heights.highest) return {};
+  return shape_of(cell.type).dimension == 2 ? section_in<2>(cell, heights, plane.d)
+                                            : section_in<3>(cell, heights, plane.d);
+}
+
+FaceOutlines::FaceOutlines(const Mesh& mesh) : mesh_(&mesh), local_(mesh.n_faces()) {
+  for (std::int32_t face = 0; face < mesh.n_faces(); ++face) {
+    const std::int32_t cell = mesh.left[face];
+    double smallest = std::numeric_limits<double>::infinity();
+    for (int local = 0; local < shape_of(mesh.cell_type[cell]).n_faces; ++local) {
+      const FaceOutline o = outline(mesh, cell, local, mesh.face_centroid[face]);
+      const Point off = face_geometry({o.corner.data(), static_cast<std::size_t>(o.size)}).centroid;
+      if (const double square = dot(off, off); square < smallest) {
+        smallest = square;
+        local_[face] = static_cast<std::int8_t>(local);
+      }
+    }
+  }
+}
+
+FaceOutline FaceOutlines::operator[](std::int32_t face) const {
+  return outline(*mesh_, mesh_->left[face], local_[face], mesh_->face_centroid[face]);
+}
+
+Point FaceOutlines::center(std::int32_t face, int side) const {
+  const Point from_left = mesh_->face_centroid[face] - mesh_->centroid[mesh_->left[face]];
+  return side == 0 ? from_left : from_left - mesh_->face_delta[face];
+}
+
+double wetted_fraction(const FaceOutline& face, const Point& center, const CutPlane& plane, double shift) {
+  const double s = dot(plane.n, center) - plane.d;
+  std::array<double, 4> h{};
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest, size = 0;
+  for (int i = 0; i < face.size; ++i) {
+    h[i] = s + dot(plane.n, face.corner[i]);
+    lowest = std::min(lowest, h[i]);
+    highest = std::max(highest, h[i]);
+    size = std::max(size, dot(face.corner[i], face.corner[i]));
+  }
+  const double nearly_zero = 1e-24 * (size + dot(center, center));
+  if (lowest * lowest <= nearly_zero && highest * highest <= nearly_zero) return shift > 0 ? 1 : shift < 0 ? 0 : 0.5;
+  const Sweep sweep{std::min(shift, 0.0), std::max(shift, 0.0)};
+  if (highest <= sweep.low) return 1;
+  if (lowest >= sweep.high) return 0;
+  return std::clamp(mean_below(face, h, sweep), 0.0, 1.0);
+}
+
+}  // namespace cobasis

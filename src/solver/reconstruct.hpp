@@ -1,0 +1,259 @@
+// Second order: from cells to states on both sides of every face, at the middle of the time step (Hancock).
+#pragma once
+
+#include "physics/smooth_flow.hpp"
+#include "solver/face_sweep.hpp"
+#include "solver/stencil.hpp"
+
+namespace cobasis {
+
+struct ReconstructionOptions {
+  double dt = 0;  ///< of the step; 0: states at its beginning
+  bool limited = true;
+};
+
+/// How far values at faces may leave the range of the neighbours' where the flow is smooth, in units of the material's
+/// own scales (rho, c, rho c^2, |e|) times Stencil::tolerance. It keeps smooth extrema at second order.
+inline constexpr double smooth_extremum = 0.5;
+
+/// A state at a face, with what the EOS and the stored energy make of it.
+template <class G, Kind K, class Real, class EquationOfState>
+void store_face_state(Phase& phase, const EquationOfState& eos,
+                      const typename Primitives<G, K>::template State<Real>& s, const Indices<Real>& to) {
+  using L = Layout<G, K>;
+  using P = Primitives<G, K>;
+  const auto keep = [&](int c, const Real& value) { scatter(value, phase.face_states.component(c), to); };
+  Real E = eos.energy(s[P::rho], s[P::p]);
+  for (int d = 0; d < G::dimension; ++d) {
+    E = E + 0.5 * (s[P::u + d] * s[P::u + d]);
+    keep(L::u + d, s[P::u + d]);
+  }
+  if constexpr (K == Kind::solid) {
+    const Cobasis<G, Real> e = make_cobasis<G>([&](int c) { return s[P::e + c]; });
+    const Real scale = metric_scale(e);
+    E = E + elastic_energy(phase.material, scaled_metric(e, scale));
+    keep(L::metric_scale, scale);
+    for (int c = 0; c < P::n_cobasis; ++c) keep(L::n_primitive + c, s[P::e + c]);
+  }
+  keep(L::rho, s[P::rho]);
+  keep(L::p, s[P::p]);
+  keep(L::ch2, eos.sound_speed_squared(s[P::rho], s[P::p]));
+  keep(L::E, E);
+}
+
+/// The same from cells as they are: where a phase is beside what it is not, or alone.
+template <class G, Kind K, class Real>
+COBASIS_KERNEL void copy_to_faces(Phase& phase, const Faces& faces, const CellList& cells, std::int32_t n) {
+  using L = Layout<G, K>;
+  for (std::int32_t i = 0; i < n; i += lanes<Real>) {
+    const Indices<Real> at = load_indices<Real>(&cells[i]);
+    for (int j = 0; j < faces.max_cell_faces; ++j) {
+      const Indices<Real> entry = lookup<Real>(&faces.cell_faces[static_cast<std::size_t>(j) * faces.cell_stride], at);
+      Indices<Real> to;
+      for (int k = 0; k < lanes<Real>; ++k)
+        to[k] = (entry[k] >> 1) + (entry[k] & 1) * static_cast<std::int32_t>(phase.face_states.stride);
+      for (int c = 0; c < L::n_face_state; ++c) {
+        const AlignedVector<double>& from = c == L::rho          ? phase.density()
+                                            : c < L::n_primitive ? phase.primitive[c]
+                                                                 : phase.conserved[L::cobasis + c - L::n_primitive];
+        scatter(gather<Real>(from.data(), at), phase.face_states.component(c), to);
+      }
+    }
+  }
+}
+
+/// Values of a phase in cells and beyond their faces, as Primitives numbers them.
+template <class G, Kind K, class Real, bool Mirrors>
+struct Neighbourhood {
+  using L = Layout<G, K>;
+  using P = Primitives<G, K>;
+  using State = typename P::template State<Real>;
+  static constexpr int D = G::dimension;
+  const Phase& phase;
+  const Faces& faces;
+  const Stencil& stencil;
+  Indices<Real> at;
+
+  std::size_t entry(int j) const { return static_cast<std::size_t>(j) * stencil.stride; }
+  Real of_entry(const AlignedVector<double>& values, int j) const { return gather<Real>(&values[entry(j)], at); }
+  Indices<Real> neighbour(int j) const { return lookup<Real>(&stencil.cell[entry(j)], at); }
+
+  State state(const Indices<Real>& cell) const {
+    State w;
+    for (int v = 0; v < P::size; ++v)
+      w[v] = gather<Real>((v == P::rho ? phase.density()
+                           : v < P::e  ? phase.primitive[v]
+                                       : phase.conserved[L::cobasis + v - P::e])
+                              .data(),
+                          cell);
+    return w;
+  }
+  /// Behind face j: another cell, or the mirror image of this one.
+  State beyond(int j) const {
+    State w = state(neighbour(j));
+    if constexpr (Mirrors) {
+      Indices<Real> face = lookup<Real>(&faces.cell_faces[entry(j)], at);
+      for (auto& f : face) f >>= 1;
+      const AlignedVector<double>* const normals[] = {&faces.nx, &faces.ny, &faces.nz};
+      const Real twice = of_entry(stencil.mirror, j);
+      std::array<Real, D> normal;
+      for (int d = 0; d < D; ++d) normal[d] = gather<Real>(normals[d]->data(), face);
+      const auto reflect = [&](int first) {
+        Real along(0.0);
+        for (int d = 0; d < D; ++d) along = along + w[first + d] * normal[d];
+        for (int d = 0; d < D; ++d) w[first + d] = w[first + d] - twice * along * normal[d];
+      };
+      reflect(P::u);
+      if constexpr (K == Kind::solid)
+        for (int beta = 0; beta < D; ++beta) reflect(P::e + beta * D);
+    }
+    return w;
+  }
+};
+
+/// Keeps the gradients of a phase in the listed cells, to be averaged.
+template <class G, Kind K, class Real, bool Mirrors>
+COBASIS_KERNEL void find_slopes(Phase& phase, const Faces& faces, const Stencil& stencil, const CellList& cells,
+                                std::int32_t n) {
+  using P = Primitives<G, K>;
+  constexpr int D = G::dimension;
+  for (std::int32_t i = 0; i < n; i += lanes<Real>) {
+    const Neighbourhood<G, K, Real, Mirrors> here{phase, faces, stencil, load_indices<Real>(&cells[i])};
+    const auto w = here.state(here.at);
+    typename P::template Gradients<Real> gradient{};
+    for (int j = 0; j < stencil.size; ++j) {
+      const auto other = here.beyond(j);
+      for (int d = 0; d < D; ++d) {
+        const Real weight = here.of_entry(stencil.weight[d], j);
+        for (int v = 0; v < P::size; ++v) gradient[v][d] = gradient[v][d] + weight * (other[v] - w[v]);
+      }
+    }
+    for (int v = 0; v < P::size; ++v)
+      for (int d = 0; d < D; ++d) scatter(gradient[v][d], phase.slopes.component(v * D + d), here.at);
+  }
+}
+
+/// Writes the state of a phase in the faces' buffer on the listed cells' sides. Returns in how many cells the state
+/// would have been inadmissible at a face; those are taken as they are, at first order.
+template <class G, Kind K, class Real, class EquationOfState, bool Mirrors, bool Averaged>
+COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos, const Faces& faces,
+                                        const Stencil& stencil, const CellList& cells, std::int32_t n,
+                                        const ReconstructionOptions& options) {
+  using L = Layout<G, K>;
+  using P = Primitives<G, K>;
+  constexpr int D = G::dimension;
+  std::int64_t fallen = 0;
+  for (std::int32_t i = 0; i < n; i += lanes<Real>) {
+    const Indices<Real> at = load_indices<Real>(&cells[i]);
+    const Neighbourhood<G, K, Real, Mirrors> here{phase, faces, stencil, at};
+    const auto w = here.state(at);
+    auto low = w, high = w;
+    typename P::template State<Real> slope_factor;
+    slope_factor.fill(Real(1.0));
+    typename P::template Gradients<Real> gradient;
+    if constexpr (Averaged) {
+      for (int v = 0; v < P::size; ++v)
+        for (int d = 0; d < D; ++d) gradient[v][d] = gather<Real>(phase.slopes.component(v * D + d), at);
+      const auto own = gradient;
+      for (int j = 0; j < stencil.size; ++j) {
+        const Indices<Real> neighbour = here.neighbour(j);
+        const Real share = here.of_entry(stencil.average, j);
+        const Mask<Real> known = gather<Real>(phase.slopes_known.data(), neighbour) * share > Real(0.0);
+        for (int v = 0; v < P::size; ++v)
+          for (int d = 0; d < D; ++d) {
+            const Real other = gather<Real>(phase.slopes.component(v * D + d), neighbour);
+            gradient[v][d] = gradient[v][d] + select(known, share * (other - own[v][d]), Real(0.0));
+          }
+      }
+    } else {
+      for (auto& of_quantity : gradient) of_quantity.fill(Real(0.0));
+    }
+    for (int j = 0; j < stencil.size; ++j) {
+      const auto other = here.beyond(j);
+      for (int v = 0; v < P::size; ++v) {
+        low[v] = smaller(low[v], other[v]);
+        high[v] = larger(high[v], other[v]);
+      }
+      if constexpr (!Averaged) {
+        for (int d = 0; d < D; ++d) {
+          const Real weight = here.of_entry(stencil.weight[d], j);
+          for (int v = 0; v < P::size; ++v) gradient[v][d] = gradient[v][d] + weight * (other[v] - w[v]);
+        }
+      }
+    }
+
+    const Real ch2 = gather<Real>(phase.primitive[L::ch2].data(), at);
+    const auto to_face = [&](int j) {
+      std::array<Real, D> r;
+      for (int d = 0; d < D; ++d) r[d] = here.of_entry(stencil.to_face[d], j);
+      return r;
+    };
+    const auto along = [&](int v, const std::array<Real, D>& r) {
+      Real change = gradient[v][0] * r[0];
+      for (int d = 1; d < D; ++d) change = change + gradient[v][d] * r[d];
+      return change;
+    };
+    if (options.limited) {
+      const Real tolerance = smooth_extremum * gather<Real>(stencil.tolerance.data(), at);
+      typename P::template State<Real> scale;
+      scale[P::rho] = w[P::rho];
+      for (int d = 0; d < D; ++d) scale[P::u + d] = square_root(ch2);
+      scale[P::p] = w[P::rho] * ch2;
+      if constexpr (K == Kind::solid) {
+        const Real size = 1.0 / square_root(gather<Real>(phase.primitive[L::metric_scale].data(), at));  // det^{1/3}
+        for (int c = 0; c < P::n_cobasis; ++c) scale[P::e + c] = size;
+      }
+      for (int v = 0; v < P::size; ++v) {
+        high[v] = (high[v] - w[v]) + tolerance * scale[v];
+        low[v] = (low[v] - w[v]) - tolerance * scale[v];
+      }
+      for (int j = 0; j < faces.max_cell_faces; ++j) {
+        const auto r = to_face(j);
+        for (int v = 0; v < P::size; ++v) {
+          const Real change = along(v, r);
+          const Real room = select(change > Real(0.0), high[v], low[v]);
+          slope_factor[v] =
+              smaller(slope_factor[v], select(magnitude(change) <= magnitude(room), Real(1.0), room / change));
+        }
+      }
+      // one factor for all components of e: limited one by one, they would no longer belong to one deformation
+      for (int c = 1; c < P::n_cobasis; ++c) slope_factor[P::e] = smaller(slope_factor[P::e], slope_factor[P::e + c]);
+      for (int c = 1; c < P::n_cobasis; ++c) slope_factor[P::e + c] = slope_factor[P::e];
+      for (int v = 0; v < P::size; ++v)
+        for (int d = 0; d < D; ++d) gradient[v][d] = slope_factor[v] * gradient[v][d];
+    }
+    const auto rate = rates_of_change<G, K, Real>(phase.material, w, gradient, ch2);
+    const Real half(0.5 * options.dt);
+
+    const auto at_face = [&](int j) {
+      const auto r = to_face(j);
+      typename P::template State<Real> s;
+      for (int v = 0; v < P::size; ++v) s[v] = w[v] + (along(v, r) + half * rate[v]);
+      return s;
+    };
+    const auto cobasis_of = [&](const typename P::template State<Real>& s) {
+      return make_cobasis<G>([&](int c) { return s[P::e + c]; });
+    };
+    Mask<Real> good = w[P::rho] == w[P::rho];
+    for (int j = 0; j < faces.max_cell_faces; ++j) {
+      const auto s = at_face(j);
+      good = good && s[P::rho] > Real(0.0) && s[P::p] > Real(eos.lowest_pressure());
+      if constexpr (K == Kind::solid) good = good && determinant(cobasis_of(s)) > Real(0.0);
+    }
+    if (any(!good)) [[unlikely]] {
+      for (int k = 0; k < lanes<Real>; ++k) fallen += i + k < n && !lane(good, k);
+    }
+    for (int j = 0; j < faces.max_cell_faces; ++j) {
+      const Indices<Real> entry = lookup<Real>(&faces.cell_faces[static_cast<std::size_t>(j) * faces.cell_stride], at);
+      Indices<Real> to;
+      for (int k = 0; k < lanes<Real>; ++k)
+        to[k] = (entry[k] >> 1) + (entry[k] & 1) * static_cast<std::int32_t>(phase.face_states.stride);
+      auto s = at_face(j);
+      for (int v = 0; v < P::size; ++v) s[v] = select(good, s[v], w[v]);
+      store_face_state<G, K>(phase, eos, s, to);
+    }
+  }
+  return fallen;
+}
+
+}  // namespace cobasis

@@ -1,0 +1,249 @@
+#include "solver/reconstruction.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <ranges>
+#include <tuple>
+
+namespace cobasis {
+namespace {
+
+/// A phase has slopes in a cell where it and all its neighbours hold more than this of it: what a trace does is no
+/// measure of the others.
+constexpr double least_for_slopes = 0.05;
+
+/// Per neighbour the faces shared with it: 2 face + own side.
+std::vector<std::vector<std::int32_t>> shared_faces(const Mesh& mesh) {
+  std::vector<std::vector<std::int32_t>> faces(mesh.neighbours.size());
+  for (std::int32_t f = mesh.n_interior_faces; f < mesh.first_boundary_face(); ++f) {
+    const int own_side = mesh.left[f] < mesh.n_owned ? 0 : 1;
+    const std::int32_t halo = own_side == 0 ? mesh.right[f] : mesh.left[f];
+    for (std::size_t n = 0; n < mesh.neighbours.size(); ++n)
+      if (halo >= mesh.neighbours[n].receive_first &&
+          halo < mesh.neighbours[n].receive_first + mesh.neighbours[n].receive_count)
+        faces[n].push_back(2 * f + own_side);
+  }
+  for (auto& list : faces)
+    std::ranges::sort(list, {}, [&](std::int32_t entry) {
+      const std::int32_t f = entry >> 1;
+      return std::tuple(mesh.global_id[mesh.left[f]], mesh.global_id[mesh.right[f]], mesh.nx[f], mesh.ny[f],
+                        mesh.nz[f]);
+    });
+  return faces;
+}
+
+std::vector<std::size_t> capacities(const std::vector<std::vector<std::int32_t>>& faces,
+                                    const std::vector<PhaseKernels>& kernels) {
+  std::size_t per_face = 0;
+  for (const PhaseKernels& k : kernels) per_face += k.n_face_state;
+  std::vector<std::size_t> result;
+  for (const auto& list : faces) result.push_back(per_face * list.size());
+  return result;
+}
+
+}  // namespace
+
+Reconstruction::Reconstruction(const Mpi& mpi, const Mesh& mesh, const Faces& faces, Fields& fields,
+                               const std::vector<PhaseKernels>& kernels, const std::vector<Boundary>& boundaries)
+    : stencil_(make_stencil(mesh, faces, boundaries, mpi)),
+      kernels_(kernels),
+      with_slopes_(mesh.n_owned),
+      without_(mesh.n_owned),
+      halo_faces_(shared_faces(mesh)),
+      exchange_(mpi, mesh.neighbours, capacities(halo_faces_, kernels), 14) {
+  if (stencil_.averages) {
+    std::size_t per_cell = 0;
+    for (std::size_t k = 0; k < fields.phases.size(); ++k) {
+      if (fields.phases[k].is_void) continue;
+      fields.phases[k].slopes = CellNumbers(fields.n_all, kernels[k].n_slopes);
+      fields.phases[k].slopes_known.assign(fields.n_all, 0);
+      per_cell += 1 + kernels[k].n_slopes;
+    }
+    std::vector<std::size_t> capacity;
+    for (const Neighbour& neighbour : mesh.neighbours) capacity.push_back(per_cell * neighbour.receive_count);
+    slope_exchange_.emplace(mpi, mesh.neighbours, capacity, 15);
+  }
+  for (Group* group : {&inside_, &beside_halo_})
+    for (CellList& cells : group->cells) cells = CellList(mesh.n_owned);
+  for (std::int32_t cell = 0; cell < mesh.n_owned; ++cell) {
+    bool needs_halo = false;
+    for (int j = 0; j < stencil_.size; ++j) {
+      const std::int32_t other = stencil_.cell[static_cast<std::size_t>(j) * stencil_.stride + cell];
+      needs_halo = needs_halo || (other >= mesh.n_owned && other < mesh.n_cells());
+    }
+    (needs_halo ? beside_halo_ : inside_).cells[stencil_.at_mirror[cell]].push(cell);
+  }
+  for (Group* group : {&inside_, &beside_halo_})
+    for (CellList& cells : group->cells) {
+      const std::int32_t count = cells.size();
+      cells.fill(pack_width);  // loads of whole packs go beyond the end
+      cells.cut(count);
+    }
+  for (std::size_t i = 0; i < boundaries.size(); ++i) {
+    const BoundaryGroup& group = mesh.boundary_groups[i];
+    for (std::int32_t face = group.first; face < group.last; ++face) {
+      if (std::holds_alternative<Transmissive>(boundaries[i])) transmissive_.push_back(face);
+      if (!std::holds_alternative<Inflow>(boundaries[i])) continue;
+      const std::int32_t ghost = mesh.ghost_of(face);
+      for (std::size_t k = 0; k < fields.phases.size(); ++k) {
+        Phase& phase = fields.phases[k];
+        if (phase.is_void) continue;
+        const std::size_t to = phase.face_states.stride + face;
+        const int n_primitive = static_cast<int>(phase.primitive.size());
+        for (int c = 0; c < kernels[k].n_face_state; ++c)
+          phase.face_states.component(c)[to] = c == 0 ? phase.density()[ghost]
+                                               : c < n_primitive
+                                                   ? phase.primitive[c][ghost]
+                                                   : phase.conserved[fields.first_cobasis() + c - n_primitive][ghost];
+      }
+    }
+  }
+}
+
+/// Cells of a group in which phase k is present: with_slopes_ and without_, both filled up to a pack.
+void Reconstruction::select(const Group& group, const Fields& fields, int k, int mirrors) {
+  const CellList& cells = group.cells[mirrors];
+  with_slopes_.clear();
+  without_.clear();
+  const AlignedVector<double>& alpha = fields.phases[k].alpha;
+  for (std::int32_t i = 0; i < cells.size(); i += pack_width) {
+    const Indices<Pack> at = load_indices<Pack>(&cells[i]);
+    const unsigned valid = cells.size() - i >= pack_width ? (1u << pack_width) - 1 : (1u << (cells.size() - i)) - 1;
+    unsigned present = valid, sloping = valid;
+    if (fields.multiphase()) {
+      const Pack own = gather<Pack>(alpha.data(), at);
+      Pack least = own;
+      for (int j = 0; j < stencil_.size; ++j) {
+        const std::int32_t* const neighbours = &stencil_.cell[static_cast<std::size_t>(j) * stencil_.stride];
+        least = smaller(least, gather<Pack>(alpha.data(), lookup<Pack>(neighbours, at)));
+      }
+      present &= positive_lanes(own);
+      sloping &= positive_lanes(least - Pack(least_for_slopes));
+    }
+    store_chosen(sloping, at, with_slopes_.end());
+    with_slopes_.grow(std::popcount(sloping));
+    store_chosen(present & ~sloping, at, without_.end());
+    without_.grow(std::popcount(present & ~sloping));
+  }
+}
+
+void Reconstruction::find_slopes(Group& group, Fields& fields, const Faces& faces) {
+  for (int k = 0; k < fields.n_phases(); ++k) {
+    Phase& phase = fields.phases[k];
+    if (phase.is_void) continue;
+    for (int mirrors = 0; mirrors < 2; ++mirrors) {
+      select(group, fields, k, mirrors);
+      const std::int32_t count = with_slopes_.size();
+      for (const std::int32_t cell : with_slopes_.span()) phase.slopes_known[cell] = 1;
+      for (const std::int32_t cell : without_.span()) phase.slopes_known[cell] = 0;
+      with_slopes_.fill(pack_width);
+      kernels_[k].find_slopes[mirrors](phase, faces, stencil_, with_slopes_, count);
+    }
+  }
+}
+
+void Reconstruction::exchange_slopes(const Mesh& mesh, Fields& fields, bool send) {
+  if (!send) slope_exchange_->finish();
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
+    const Neighbour& neighbour = mesh.neighbours[n];
+    const auto for_each_slope = [&](Phase& phase, int count, std::int32_t cell, const auto& visit) {
+      if (phase.is_void || (fields.multiphase() && !(phase.alpha[cell] > 0))) return;
+      visit(phase.slopes_known[cell]);
+      for (int c = 0; c < count; ++c) visit(phase.slopes.component(c)[cell]);
+    };
+    const auto for_each_cell = [&](const auto& cells, const auto& visit) {
+      for (const std::int32_t cell : cells)
+        for (std::size_t k = 0; k < fields.phases.size(); ++k)
+          for_each_slope(fields.phases[k], kernels_[k].n_slopes, cell, visit);
+    };
+    if (send) {
+      std::vector<double>& out = slope_exchange_->outgoing(n);
+      out.clear();
+      for_each_cell(neighbour.send, [&](double value) { out.push_back(value); });
+    } else {
+      const double* in = slope_exchange_->incoming(n).data();
+      for_each_cell(std::views::iota(neighbour.receive_first, neighbour.receive_first + neighbour.receive_count),
+                    [&](double& value) { value = *in++; });
+    }
+  }
+  if (send) slope_exchange_->start();
+}
+
+void Reconstruction::run(Group& group, Fields& fields, const Faces& faces, const ReconstructionOptions& options) {
+  for (int k = 0; k < fields.n_phases(); ++k) {
+    Phase& phase = fields.phases[k];
+    if (phase.is_void) continue;
+    for (int mirrors = 0; mirrors < 2; ++mirrors) {
+      select(group, fields, k, mirrors);
+      const std::int32_t count = with_slopes_.size(), others = without_.size();
+      with_slopes_.fill(pack_width);
+      without_.fill(pack_width);
+      fallen_ +=
+          kernels_[k].reconstruct[mirrors][stencil_.averages](phase, faces, stencil_, with_slopes_, count, options);
+      reconstructed_ += count;
+      if (others > 0) kernels_[k].copy_to_faces(phase, faces, without_, others);
+    }
+  }
+}
+
+void Reconstruction::run_inside(Fields& fields, const Faces& faces, const ReconstructionOptions& options) {
+  if (stencil_.averages)
+    find_slopes(inside_, fields, faces);
+  else
+    run(inside_, fields, faces, options);
+}
+
+void Reconstruction::run_beside_halo(const Mesh& mesh, Fields& fields, const Faces& faces,
+                                     const ReconstructionOptions& options) {
+  if (stencil_.averages) {
+    find_slopes(beside_halo_, fields, faces);
+    exchange_slopes(mesh, fields, true);
+    run(inside_, fields, faces, options);
+    exchange_slopes(mesh, fields, false);
+  }
+  run(beside_halo_, fields, faces, options);
+  for (std::size_t k = 0; k < fields.phases.size(); ++k) {
+    Phase& phase = fields.phases[k];
+    if (phase.is_void) continue;
+    for (int c = 0; c < kernels_[k].n_face_state; ++c) {
+      double* const values = phase.face_states.component(c);
+      for (const std::int32_t face : transmissive_) values[phase.face_states.stride + face] = values[face];
+    }
+  }
+}
+
+void Reconstruction::send(const Mesh& mesh, const Fields& fields) {
+  for (std::size_t n = 0; n < halo_faces_.size(); ++n) {
+    std::vector<double>& out = exchange_.outgoing(n);
+    out.clear();
+    for (const std::int32_t entry : halo_faces_[n]) {
+      const std::int32_t face = entry >> 1, side = entry & 1, cell = side == 0 ? mesh.left[face] : mesh.right[face];
+      for (std::size_t k = 0; k < fields.phases.size(); ++k) {
+        const Phase& phase = fields.phases[k];
+        if (phase.is_void || (fields.multiphase() && !(phase.alpha[cell] > 0))) continue;
+        const std::size_t from = side * phase.face_states.stride + face;
+        for (int c = 0; c < kernels_[k].n_face_state; ++c) out.push_back(phase.face_states.component(c)[from]);
+      }
+    }
+  }
+  exchange_.start();
+}
+
+void Reconstruction::receive(const Mesh& mesh, Fields& fields) {
+  exchange_.finish();
+  for (std::size_t n = 0; n < halo_faces_.size(); ++n) {
+    const double* in = exchange_.incoming(n).data();
+    for (const std::int32_t entry : halo_faces_[n]) {
+      const std::int32_t face = entry >> 1, side = 1 - (entry & 1),
+                         cell = side == 0 ? mesh.left[face] : mesh.right[face];
+      for (std::size_t k = 0; k < fields.phases.size(); ++k) {
+        Phase& phase = fields.phases[k];
+        if (phase.is_void || (fields.multiphase() && !(phase.alpha[cell] > 0))) continue;
+        const std::size_t to = side * phase.face_states.stride + face;
+        for (int c = 0; c < kernels_[k].n_face_state; ++c) phase.face_states.component(c)[to] = *in++;
+      }
+    }
+  }
+}
+
+}  // namespace cobasis

@@ -1,0 +1,270 @@
+#include "solver/redistribution.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cobasis {
+namespace {
+
+/// Below this volume fraction a phase is averaged. Stable at the whole cell's step needs about 0.6 of the CFL number.
+constexpr double least_donor = 0.03;  // what is small itself has no state to share
+constexpr double small_fraction = 0.5;
+/// A negative volume may take away so much of the neighbour's share that their mean means nothing. The sum of both must
+/// exceed this part of the sum of magnitudes: then the mean leaves the range of the two states by half their difference
+/// at most.
+constexpr double least_sum = 0.5;
+
+/// A pair: the position of its cell among those sent, of the donor among those received, k.
+constexpr int choice_size = 3;
+
+std::vector<std::size_t> capacities(const Mesh& mesh, std::size_t per_received, std::size_t per_sent) {
+  std::vector<std::size_t> values;
+  for (const Neighbour& n : mesh.neighbours)
+    values.push_back(per_received * n.receive_count + per_sent * n.send.size());
+  return values;
+}
+
+std::size_t most_conserved(const Fields& fields) {
+  int most = 0;
+  for (const Phase& phase : fields.phases) most = std::max(most, phase.n_conserved());
+  return most;
+}
+
+/// The cell on the other side of face f of an owned cell's list; -1 where there is none.
+std::int32_t neighbour_at(const Mesh& mesh, const Faces& faces, std::int32_t cell, int f) {
+  const std::int32_t entry = faces.cell_faces[static_cast<std::size_t>(f) * faces.cell_stride + cell];
+  const std::int32_t face = entry >> 1;
+  if (face >= mesh.first_boundary_face()) return -1;
+  const std::int32_t other = entry & 1 ? faces.left[face] : faces.right[face];
+  return other == cell ? -1 : other;
+}
+
+}  // namespace
+
+Redistribution::Redistribution(const Mpi& mpi, const Mesh& mesh, const Fields& fields)
+    : alpha_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases(), 0), 16),
+      choices_(mpi, mesh.neighbours, capacities(mesh, choice_size * fields.n_phases(), 0), 17),
+      shares_(mpi, mesh.neighbours,
+              capacities(mesh, fields.n_phases() * (1 + most_conserved(fields)),
+                         fields.n_phases() * (1 + most_conserved(fields))),
+              18),
+      neighbour_of_halo_(mesh.n_halo),
+      asked_(mesh.neighbours.size()),
+      received_(mesh.neighbours.size()),
+      members_(fields.n_phases()) {
+  // Room for every cell at once, so that no step allocates; memory that stays untouched costs nothing.
+  pairs_.reserve(mesh.n_cells() + 1);
+  changed_.reserve(2 * (mesh.n_owned + 1));
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
+    const Neighbour& neighbour = mesh.neighbours[n];
+    std::fill_n(neighbour_of_halo_.begin() + (neighbour.receive_first - mesh.n_owned), neighbour.receive_count,
+                static_cast<std::int32_t>(n));
+    asked_[n].reserve(fields.n_phases() * neighbour.send.size());
+  }
+  for (int k = 0; k < fields.n_phases(); ++k) {
+    if (fields.phases[k].is_void) continue;
+    members_[k].pair_of.assign(mesh.n_cells(), -1);
+    members_[k].chosen.assign(mesh.n_owned, 0);
+  }
+}
+
+void Redistribution::share_alpha(const Mesh& mesh, Fields& fields) {
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
+    std::vector<double>& out = alpha_.outgoing(n);
+    out.clear();
+    for (const std::int32_t cell : mesh.neighbours[n].send)
+      for (const Phase& phase : fields.phases) out.push_back(phase.alpha[cell]);
+  }
+  alpha_.start();
+  alpha_.finish();
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
+    const double* in = alpha_.incoming(n).data();
+    for (std::int32_t i = 0; i < mesh.neighbours[n].receive_count; ++i)
+      for (Phase& phase : fields.phases) phase.alpha[mesh.neighbours[n].receive_first + i] = *in++;
+  }
+}
+
+/// The pairs about owned cells.
+void Redistribution::choose(const Mesh& mesh, const Faces& faces, const Fields& fields, int k, std::int32_t cell,
+                            double more_than) {
+  const Phase& phase = fields.phases[k];
+  std::int32_t donor = -1;
+  double most = more_than;
+  for (int f = 0; f < faces.max_cell_faces; ++f) {
+    const std::int32_t other = neighbour_at(mesh, faces, cell, f);
+    if (other < 0) continue;
+    const double there = phase.alpha[other];
+    if (there > most || (donor >= 0 && there == most && mesh.global_id[other] < mesh.global_id[donor]))
+      donor = other, most = there;
+  }
+  if (donor >= 0)
+    pairs_.push_back({cell, donor, k, false, {}});
+  else
+    ++counters_.alone;
+}
+
+/// Appends the pairs about halo cells whose donor is owned.
+void Redistribution::share_choices(const Mesh& mesh) {
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
+    choices_.outgoing(n).clear();
+    asked_[n].clear();
+  }
+  for (std::size_t i = 0; i < n_own_pairs_; ++i) {
+    const Pair& pair = pairs_[i];
+    if (pair.donor < mesh.n_owned) continue;
+    const std::int32_t n = neighbour_of_halo_[pair.donor - mesh.n_owned];
+    const Neighbour& neighbour = mesh.neighbours[n];
+    const auto own = std::lower_bound(neighbour.send.begin(), neighbour.send.end(), pair.cell) - neighbour.send.begin();
+    for (const double value : {static_cast<double>(own), static_cast<double>(pair.donor - neighbour.receive_first),
+                               static_cast<double>(pair.k)})
+      choices_.outgoing(n).push_back(value);
+    asked_[n].push_back(static_cast<std::int32_t>(i));
+  }
+  choices_.start();
+  choices_.finish();
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
+    const std::span<const double> in = choices_.incoming(n);
+    const Neighbour& neighbour = mesh.neighbours[n];
+    received_[n].first = static_cast<std::int32_t>(pairs_.size());
+    for (std::size_t at = 0; at < in.size(); at += choice_size)
+      pairs_.push_back({neighbour.receive_first + static_cast<std::int32_t>(in[at]),
+                        neighbour.send[static_cast<std::size_t>(in[at + 1])],
+                        static_cast<int>(in[at + 2]),
+                        false,
+                        {}});
+    received_[n].second = static_cast<std::int32_t>(pairs_.size());
+  }
+}
+
+Redistribution::Share Redistribution::share_of(const Fields& fields, int k, std::int32_t cell) const {
+  const Phase& phase = fields.phases[k];
+  const double part = fields.volume[cell] / (1 + members_[k].chosen[cell]), volume = phase.alpha[cell] * part;
+  Share share;
+  share.volume = volume;
+  for (int c = 0; c < phase.n_conserved(); ++c)
+    share.content[c] = phase.conserved[c][cell] * (c < fields.first_cobasis() ? part : volume);
+  return share;
+}
+
+/// The mean of every pair, from the state before.
+void Redistribution::average(const Mesh& mesh, const Fields& fields) {
+  const auto send = [&](std::vector<double>& out, int k, std::int32_t cell) {
+    const Share share = share_of(fields, k, cell);
+    out.push_back(share.volume);
+    out.insert(out.end(), share.content.begin(), share.content.begin() + fields.phases[k].n_conserved());
+  };
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
+    std::vector<double>& out = shares_.outgoing(n);
+    out.clear();
+    for (const std::int32_t i : asked_[n]) send(out, pairs_[i].k, pairs_[i].cell);
+    for (std::int32_t i = received_[n].first; i < received_[n].second; ++i) send(out, pairs_[i].k, pairs_[i].donor);
+  }
+  shares_.start();
+  const auto combine = [&](Pair& pair, const Share& a, const Share& b) {
+    const double volume = a.volume + b.volume;
+    pair.apart = !(volume > least_sum * (std::fabs(a.volume) + std::fabs(b.volume)));
+    if (pair.apart) return;
+    for (int c = 0; c < fields.phases[pair.k].n_conserved(); ++c) pair.mean[c] = (a.content[c] + b.content[c]) / volume;
+  };
+  for (std::size_t i = 0; i < n_own_pairs_; ++i) {
+    Pair& pair = pairs_[i];
+    if (pair.donor < mesh.n_owned)
+      combine(pair, share_of(fields, pair.k, pair.cell), share_of(fields, pair.k, pair.donor));
+  }
+  shares_.finish();
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
+    const double* in = shares_.incoming(n).data();
+    const auto receive = [&](int k) {
+      Share share;
+      share.volume = *in++;
+      const int size = fields.phases[k].n_conserved();
+      std::copy_n(in, size, share.content.begin());
+      in += size;
+      return share;
+    };
+    // what this rank's pairs ask of the neighbour is what was received there, and the other way round
+    for (std::int32_t i = received_[n].first; i < received_[n].second; ++i) {
+      Pair& pair = pairs_[i];
+      combine(pair, receive(pair.k), share_of(fields, pair.k, pair.donor));
+    }
+    for (const std::int32_t i : asked_[n]) {
+      Pair& pair = pairs_[i];
+      combine(pair, share_of(fields, pair.k, pair.cell), receive(pair.k));
+    }
+  }
+  for (std::size_t i = 0; i < n_own_pairs_; ++i) counters_.apart += pairs_[i].apart;
+}
+
+/// The mean over a cell's neighbourhoods: its own first, then in the order of its faces.
+void Redistribution::take(const Mesh& mesh, const Faces& faces, Fields& fields, int k, std::int32_t cell) {
+  Phase& phase = fields.phases[k];
+  const int first_cobasis = fields.first_cobasis(), size = phase.n_conserved();
+  const double alpha = phase.alpha[cell];
+  std::array<double, most_components> own, sum{};
+  for (int c = 0; c < size; ++c) own[c] = phase.conserved[c][cell] / (c < first_cobasis ? alpha : 1);
+  const Members& members = members_[k];
+  int count = 0;
+  const auto add = [&](std::int32_t pair) {
+    const auto& mean = pair < 0 || pairs_[pair].apart ? own : pairs_[pair].mean;
+    for (int c = 0; c < size; ++c) sum[c] += mean[c];
+    ++count;
+  };
+  add(members.pair_of[cell]);
+  for (int f = 0; f < faces.max_cell_faces && count <= members.chosen[cell]; ++f) {
+    const std::int32_t other = neighbour_at(mesh, faces, cell, f);
+    if (other < 0) continue;
+    const std::int32_t pair = members.pair_of[other];
+    if (pair < 0 || pairs_[pair].donor != cell) continue;
+    bool again = false;  // two faces can join the same cells through a periodic pair
+    for (int g = 0; g < f; ++g) again = again || neighbour_at(mesh, faces, cell, g) == other;
+    if (!again) add(pair);
+  }
+  for (int c = 0; c < size; ++c) phase.conserved[c][cell] = sum[c] / count * (c < first_cobasis ? alpha : 1);
+}
+
+void Redistribution::run(const Mesh& mesh, const Faces& faces, Fields& fields,
+                         std::span<const std::int32_t> candidates) {
+  pairs_.clear();
+  share_alpha(mesh, fields);
+  for (int k = 0; k < fields.n_phases(); ++k) {
+    const Phase& phase = fields.phases[k];
+    if (phase.is_void) continue;
+    for (const std::int32_t cell : candidates)
+      if (phase.alpha[cell] != 0 && phase.alpha[cell] < small_fraction)
+        choose(mesh, faces, fields, k, cell, std::max(least_donor, std::fabs(phase.alpha[cell])));
+  }
+  counters_.merged += static_cast<std::int64_t>(pairs_.size());
+  settle(mesh, faces, fields);
+}
+
+void Redistribution::mend(const Mesh& mesh, const Faces& faces, Fields& fields,
+                          std::span<const std::pair<std::int32_t, int>> volumes) {
+  pairs_.clear();
+  share_alpha(mesh, fields);
+  for (const auto& [cell, k] : volumes) choose(mesh, faces, fields, k, cell, 0);
+  counters_.mended += static_cast<std::int64_t>(pairs_.size());
+  settle(mesh, faces, fields);
+}
+
+/// Averages the pairs that were chosen.
+void Redistribution::settle(const Mesh& mesh, const Faces& faces, Fields& fields) {
+  n_own_pairs_ = pairs_.size();
+  share_choices(mesh);
+  changed_.clear();
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const Pair& pair = pairs_[i];
+    Members& members = members_[pair.k];
+    if (pair.cell < mesh.n_owned && members.chosen[pair.cell] == 0) changed_.emplace_back(pair.cell, pair.k);
+    members.pair_of[pair.cell] = static_cast<std::int32_t>(i);
+    if (pair.donor >= mesh.n_owned) continue;
+    if (members.chosen[pair.donor]++ == 0 && members.pair_of[pair.donor] < 0) changed_.emplace_back(pair.donor, pair.k);
+  }
+  average(mesh, fields);
+  for (const auto& [cell, k] : changed_) take(mesh, faces, fields, k, cell);
+  for (const Pair& pair : pairs_) {
+    members_[pair.k].pair_of[pair.cell] = -1;
+    if (pair.donor < mesh.n_owned) members_[pair.k].chosen[pair.donor] = 0;
+  }
+}
+
+}  // namespace cobasis

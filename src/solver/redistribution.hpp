@@ -1,0 +1,90 @@
+// Small cut volumes without small steps: state redistribution (Berger and Giuliani, J. Comput. Phys. 428 (2021) 109820)
+// per phase. After an update whose step knows only the sizes of whole cells, a phase that fills little of a cell is
+// averaged, weighted by volume, with the same phase in a neighbour that has more of it. Volume fractions stay.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "mesh/neighbour_exchange.hpp"
+#include "solver/faces.hpp"
+#include "solver/field.hpp"
+
+namespace cobasis {
+
+/// What has been redistributed so far on this rank, summed over steps.
+struct RedistributionCounters {
+  std::int64_t merged = 0;  ///< small volumes averaged with a neighbour's
+  std::int64_t mended = 0;  ///< volumes of an inadmissible state averaged with a neighbour's
+  std::int64_t alone = 0;   ///< small volumes without a neighbour that has more of the phase
+  std::int64_t apart = 0;   ///< negative volumes that nearly cancel the neighbour's share: left as they were
+};
+
+/// Phase k of cell i with alpha_ik < 1/2 has the neighbourhood {i, d}, d the face neighbour with the largest alpha_dk,
+/// which must exceed |alpha_ik| (of equals the one with the smaller global number); any other has {i}. With N_j the
+/// number of neighbourhoods that contain j and V the volumes of the phase, a neighbourhood has the mean
+/// Q^_i = sum V_j / N_j Q_j / sum V_j / N_j, and a cell takes the mean of the Q^ of its neighbourhoods: sum V Q is
+/// conserved, and for V > 0 all averages are convex. Q: mass, momentum, energy per volume of the phase, and the
+/// cobasis.
+class Redistribution {
+ public:
+  Redistribution(const Mpi& mpi, const Mesh& mesh, const Fields& fields);
+
+  /// After an update, before primitives are made from it. `candidates`: owned cells, ascending, among them all with
+  /// several phases; what they are averaged with need not be among them. Collective. Needs no halo cell to be current;
+  /// leaves the new volume fractions there, their conserved quantities as they are. The same bits for any partition.
+  void run(const Mesh& mesh, const Faces& faces, Fields& fields, std::span<const std::int32_t> candidates);
+
+  /// The same for the listed (owned cell, phase) alone, whatever their size, and with whatever neighbour has most of
+  /// the phase: for states that are not admissible. `changed` then says what got a new state.
+  void mend(const Mesh& mesh, const Faces& faces, Fields& fields,
+            std::span<const std::pair<std::int32_t, int>> volumes);
+  /// (owned cell, phase) that the last call averaged.
+  const std::vector<std::pair<std::int32_t, int>>& changed() const { return changed_; }
+
+  const RedistributionCounters& counters() const { return counters_; }
+
+ private:
+  static constexpr int most_components = Layout<Space, Kind::solid>::n_conserved;
+
+  /// A cell's share of a neighbourhood: V / N, and that times Q.
+  struct Share {
+    double volume;
+    std::array<double, most_components> content;
+  };
+  struct Pair {  // neighbourhood of phase k of two cells, of which this rank owns at least one
+    std::int32_t cell, donor;
+    int k;
+    bool apart;                                // no mean: both keep what they have
+    std::array<double, most_components> mean;  // Q^
+  };
+  /// Which cells of a phase are averaged; all is -1 and 0 between runs.
+  struct Members {
+    std::vector<std::int32_t> pair_of;  ///< of owned and halo cells: position in pairs_ of the pair about the cell
+    std::vector<std::int32_t> chosen;   ///< of owned cells: by how many neighbours
+  };
+
+  void share_alpha(const Mesh& mesh, Fields& fields);
+  void choose(const Mesh& mesh, const Faces& faces, const Fields& fields, int k, std::int32_t cell, double more_than);
+  void settle(const Mesh& mesh, const Faces& faces, Fields& fields);
+  void share_choices(const Mesh& mesh);
+  void average(const Mesh& mesh, const Fields& fields);
+  void take(const Mesh& mesh, const Faces& faces, Fields& fields, int k, std::int32_t cell);
+  Share share_of(const Fields& fields, int k, std::int32_t cell) const;
+
+  NeighbourExchange alpha_, choices_, shares_;
+  std::vector<std::int32_t> neighbour_of_halo_;
+  std::vector<Pair> pairs_;  // first about owned cells, then about halo cells
+  std::size_t n_own_pairs_ = 0;
+  std::vector<std::vector<std::int32_t>> asked_;  // per neighbour: pairs about owned cells with its cells
+  std::vector<std::pair<std::int32_t, std::int32_t>> received_;  // per neighbour: its part of pairs_
+  std::vector<Members> members_;                                 // per phase
+  std::vector<std::pair<std::int32_t, int>> changed_;            // (cell, phase) in at least one pair
+  RedistributionCounters counters_;
+};
+
+}  // namespace cobasis

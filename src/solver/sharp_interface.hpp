@@ -1,0 +1,102 @@
+// Sharp interfaces: a plane in every cell that an interface crosses. It says which part of a face each phase has during
+// a step, and with which area and normal the phases meet inside the cell.
+//
+// Where two bodies move past each other along a straight interface, every cell and face sees the same plane: the faces
+// carry each phase with itself, and what the phases do to each other happens along the interface's own normal. Neither
+// sees the slip, on any mesh.
+#pragma once
+
+#include <span>
+
+#include "mesh/neighbour_exchange.hpp"
+#include "solver/kernels.hpp"
+#include "solver/plane_cut.hpp"
+
+namespace cobasis {
+
+class SharpInterface {
+ public:
+  /// Makes room in `fields`. Collective.
+  SharpInterface(const Mpi& mpi, const Mesh& mesh, const Faces& faces, Fields& fields, const Setup& setup,
+                 const std::vector<PhaseKernels>& kernels, const std::vector<PairKernels>& pairs,
+                 const std::vector<Boundary>& boundaries);
+
+  /// Planes from the volume fractions and states at the beginning of a step; the halo must be known. Where an interface
+  /// may arrive, absent phases get the state with which they would come. So do `followers`, (cell, phase) of fragments
+  /// whose own state is not admissible: what they contain stays theirs. Collective.
+  void place(const Faces& faces, Fields& fields, std::span<const std::pair<std::int32_t, int>> followers);
+  /// Fractions of the faces over a step of this length: Fields::near, Phase::wetted.
+  void wet(const Faces& faces, Fields& fields, double dt);
+  /// What phases do to each other inside the listed cells: Phase::inner.
+  void act(const Faces& faces, Fields& fields, std::span<const std::int32_t> touched);
+  /// Whether a small volume fraction is what the interface makes there, and not what it has left behind: whether a
+  /// neighbour's plane, moved on by the step, cuts off the same of the cell, or no neighbour is cut.
+  bool expects(const Fields& fields, int k, std::int32_t cell, double dt) const;
+
+ private:
+  struct Cell {
+    CutPlane plane;
+    PlaneSection cut;
+    double speed = 0;  ///< of the plane along its normal [m/s]
+    double blend = 1;  ///< how much of what the plane says counts for its faces, see blend_of
+    int ring = 0;      ///< 1: the cell is cut; 2, 3: it has the plane of a neighbour; -1: it is cut, but keeps its
+                       ///< plane for itself; valid if step is the present
+    std::int64_t step = -1;  ///< in which it was placed
+  };
+  bool is_cut(const Fields& fields, int k, std::int32_t cell) const;
+  bool knows_plane(std::int32_t cell) const;
+  bool valid(int k, std::int32_t cell) const { return cells_[k][cell].step == step_; }
+  Point gradient(const Faces& faces, const Fields& fields, int k, std::int32_t cell) const;
+  void put_plane(const Fields& fields, int k, std::int32_t cell, const Point& n);
+  Point mean_normal(int k, std::int32_t cell) const;
+  Point fitted_normal(int k, std::int32_t cell) const;
+  void exchange(Fields& fields);
+  void exchange_blends(const Fields& fields);
+  void find_speeds(Fields& fields);
+  void seed(const Faces& faces, Fields& fields);
+  void spread(Fields& fields, int ring);
+  void adopt(Fields& fields, int k, std::int32_t cell, std::int32_t from, const CutPlane& plane, double speed,
+             int ring);
+  void follow(Fields& fields, std::span<const std::pair<std::int32_t, int>> followers);
+  bool borrows(const Fields& fields, int k, std::int32_t cell) const;
+  void borrow(Fields& fields, int k, std::int32_t cell, std::int32_t from) const;
+  void lend_to_faces(Fields& fields, int k, std::int32_t cell) const;
+  bool has_state(const Fields& fields, int k, std::int32_t cell) const;
+  void run_speeds(Fields& fields);
+  double blend_of(const Fields& fields, int k, std::int32_t cell, double dt) const;
+  double side_fraction(const Fields& fields, int k, std::int32_t face, int side, double dt) const;
+  void find_health(Fields& fields);
+  bool has_planes(const Fields& fields, std::int32_t cell) const;
+  void wet_face(const Faces& faces, Fields& fields, std::int32_t face, double dt);
+  void contacts_of(const Faces& faces, const Fields& fields, std::int32_t cell);
+  template <class Visit>
+  void for_each_face(std::int32_t cell, const Visit& visit) const;  ///< visit(face, side of the cell)
+
+  const Mesh& mesh_;
+  FaceOutlines outlines_;
+  std::vector<PhaseKernels> kernels_;
+  std::vector<PairKernels> pairs_;
+  std::vector<int> planes_of_;                              // phases that have planes
+  int rest_ = -1;                                           // the phase that takes what they leave; -1: none
+  std::vector<std::vector<Cell>> cells_;                    // [phase][owned and halo cell]
+  std::vector<CellCorners> corners_;                        // of owned cells that were cut once
+  std::vector<std::int32_t> corners_at_;                    // where in corners_; -1: not yet
+  std::vector<std::int32_t> halo_face_begin_, halo_faces_;  // faces of halo cells: 2 face + side
+  std::vector<double> face_radius_;                         // largest distance of a corner from the centroid [m]
+  std::vector<bool> is_transmissive_;                       // boundary faces
+
+  std::vector<std::int32_t> cut_cells_, mixed_cells_;  // owned cells of several phases, with planes and without
+  std::vector<std::int32_t> frontier_, next_, near_faces_;
+  std::vector<std::pair<std::int32_t, int>> speed_of_;  // whose speed each entry of a list is: cell and phase
+  std::vector<ContactList> contacts_;                   // [l * n + m], l < m, the void last
+  std::vector<std::vector<std::pair<std::int32_t, int>>> speed_users_;
+  std::vector<std::vector<std::int8_t>> health_;     // [phase][cell]: see find_health
+  std::vector<std::vector<std::int64_t>> followed_;  // [phase][cell]: the last step in which it was a follower
+  std::vector<std::int32_t> following_;              // cells of the present followers
+  NeighbourExchange exchange_;
+  bool shares_planes_;
+  std::int64_t step_ = 0;
+  bool settled_ = false;  // whether the normals have been found once
+};
+
+}  // namespace cobasis

@@ -1,0 +1,193 @@
+#include "solver/redistribution.hpp"
+
+#include <catch2/catch.hpp>
+#include <numeric>
+
+#include "sample_fields.hpp"
+#include "small_scene.hpp"
+
+using namespace cobasis;
+
+namespace {
+
+RedistributionCounters redistribute(const Mesh& mesh, Fields& fields, int times = 1) {
+  const Faces faces = make_faces(mesh);
+  Redistribution redistribution(one_rank(), mesh, fields);
+  std::vector<std::int32_t> candidates(mesh.n_owned);
+  std::iota(candidates.begin(), candidates.end(), 0);
+  for (int i = 0; i < times; ++i) redistribution.run(mesh, faces, fields, candidates);
+  return redistribution.counters();
+}
+
+std::vector<double> owned(const Mesh& mesh, const AlignedVector<double>& values) {
+  return {values.begin(), values.begin() + mesh.n_owned};
+}
+
+/// One fluid in rectangles of height 1, and the void; the cells' states are `Q`, in all components.
+struct Row {
+  Mesh mesh;
+  Fields fields;
+  std::vector<std::int32_t> cell;
+
+  Row(const std::vector<double>& x, const std::vector<double>& alpha, const std::vector<double>& Q)
+      : mesh(strip(x)), fields(empty_fields(mesh)) {
+    for (std::size_t i = 0; i < alpha.size(); ++i) {
+      cell.push_back(cell_at(mesh, 0.5 * (x[i] + x[i + 1])));
+      fields.phases[0].alpha[cell[i]] = alpha[i];
+      fields.phases[1].alpha[cell[i]] = 0;
+      fields.phases[2].alpha[cell[i]] = 1 - alpha[i];
+      for (int c = 0; c < 4; ++c) set_intensive(fields, 0, c, cell[i], Q[i]);
+      for (auto& component : fields.phases[1].conserved) component[cell[i]] = 0;
+    }
+  }
+  RedistributionCounters run() { return redistribute(mesh, fields); }
+  void check(const std::vector<double>& Q) const {
+    for (std::size_t i = 0; i < Q.size(); ++i)
+      for (int c = 0; c < 4; ++c) {
+        CAPTURE(i, c);
+        CHECK(intensive(fields, 0, c, cell[i]) == Approx(Q[i]).epsilon(1e-14));
+      }
+  }
+};
+
+/// Per cell the smallest and largest Q of a phase among the cell, its neighbours and theirs.
+std::array<std::vector<double>, 2> range_around(const Mesh& mesh, const Fields& fields, int k, int c) {
+  std::vector<double> low(mesh.n_owned, infinity), high(mesh.n_owned, -infinity);
+  for (std::int32_t i = 0; i < mesh.n_owned; ++i)
+    if (fields.phases[k].alpha[i] > 0) low[i] = high[i] = intensive(fields, k, c, i);
+  for (int ring = 0; ring < 2; ++ring) {
+    const auto low_before = low, high_before = high;
+    for (std::int32_t f = 0; f < mesh.n_interior_faces; ++f)
+      for (const auto& [a, b] : {std::pair(mesh.left[f], mesh.right[f]), std::pair(mesh.right[f], mesh.left[f])}) {
+        low[a] = std::min(low[a], low_before[b]);
+        high[a] = std::max(high[a], high_before[b]);
+      }
+  }
+  return {low, high};
+}
+
+}  // namespace
+
+TEST_CASE("redistribution conserves mass, momentum, energy and volume times cobasis of each phase") {
+  for (const CellType type : {CellType::triangle, CellType::hexahedron}) {
+    for (const bool negative : {false, true}) {
+      const Mesh mesh = small_mesh(type, type == CellType::triangle ? 16 : 7);
+      const Fields before = random_fields(mesh, negative);
+      Fields fields = random_fields(mesh, negative);
+      const RedistributionCounters counters = redistribute(mesh, fields);
+      CHECK(counters.merged > 100);
+      CHECK(counters.alone > 0);
+      for (int k = 0; k < 2; ++k) {
+        CHECK(owned(mesh, fields.phases[k].alpha) == owned(mesh, before.phases[k].alpha));
+        CHECK(owned(mesh, fields.phases[k].conserved[0]) != owned(mesh, before.phases[k].conserved[0]));
+        for (int c = 0; c < fields.phases[k].n_conserved(); ++c) {
+          const auto [old_sum, scale] = content(before, k, c);
+          CAPTURE(negative, k, c);
+          CHECK(std::fabs(content(fields, k, c).first - old_sum) < 1e-14 * scale);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("uniform velocity, pressure and cobasis stay so, whatever the density") {
+  constexpr double gamma = 4.4, p_inf = 6e8, p = 1e5, u = 20, v = -7;
+  const Mesh mesh = small_mesh(CellType::triangle, 16);
+  Fields fields = random_fields(mesh, true);
+  for (std::int32_t cell = 0; cell < mesh.n_owned; ++cell)
+    for (int k = 0; k < 2; ++k) {
+      const double rho = intensive(fields, k, 0, cell);
+      set_intensive(fields, k, 1, cell, rho * u);
+      set_intensive(fields, k, 2, cell, rho * v);
+      set_intensive(fields, k, 3, cell, (p + gamma * p_inf) / (gamma - 1) + rho * (u * u + v * v) / 2);
+      for (int c = 4; c < fields.phases[k].n_conserved(); ++c) set_intensive(fields, k, c, cell, 0.3 * c);
+    }
+  CHECK(redistribute(mesh, fields, 10).merged > 1000);
+  for (std::int32_t cell = 0; cell < mesh.n_owned; ++cell)
+    for (int k = 0; k < 2; ++k) {
+      if (fields.phases[k].alpha[cell] == 0) continue;
+      const double rho = intensive(fields, k, 0, cell);
+      CHECK(intensive(fields, k, 1, cell) == Approx(rho * u).epsilon(1e-13));
+      CHECK(intensive(fields, k, 2, cell) == Approx(rho * v).epsilon(1e-13));
+      // to what the energy's digits allow
+      const double rho_e = intensive(fields, k, 3, cell) - rho * (u * u + v * v) / 2;
+      CHECK(std::fabs((gamma - 1) * rho_e - gamma * p_inf - p) < 1e-14 * gamma * p_inf);
+      for (int c = 4; c < fields.phases[k].n_conserved(); ++c)
+        CHECK(intensive(fields, k, c, cell) == Approx(0.3 * c).epsilon(1e-13));
+    }
+}
+
+TEST_CASE("for positive volumes no state leaves the range of those around it") {
+  const Mesh mesh = small_mesh(CellType::hexahedron, 7);
+  Fields fields = random_fields(mesh, false);
+  const Fields before = random_fields(mesh, false);
+  redistribute(mesh, fields);
+  for (int k = 0; k < 2; ++k)
+    for (int c = 0; c < fields.phases[k].n_conserved(); ++c) {
+      const auto [low, high] = range_around(mesh, before, k, c);
+      for (std::int32_t cell = 0; cell < mesh.n_owned; ++cell) {
+        if (fields.phases[k].alpha[cell] == 0) continue;
+        const double value = intensive(fields, k, c, cell), margin = 1e-14 * (c == 0 ? 3000 : 3);
+        CHECK(value >= low[cell] - margin);
+        CHECK(value <= high[cell] + margin);
+      }
+    }
+}
+
+TEST_CASE("a cell that is neither small nor chosen keeps its bits, and so does a small one beside none with more") {
+  Row row({0, 1, 2, 3, 4}, {0.3, 0.3, 0, 0.7}, {1.1, 2.3, 0, 7.7});
+  const double first = row.fields.phases[0].conserved[0][row.cell[0]],
+               last = row.fields.phases[0].conserved[3][row.cell[3]];
+  const RedistributionCounters counters = row.run();
+  CHECK(row.fields.phases[0].conserved[0][row.cell[0]] == first);
+  CHECK(row.fields.phases[0].conserved[3][row.cell[3]] == last);
+  CHECK(counters.merged == 0);
+  CHECK(counters.alone == 2);
+}
+
+TEST_CASE("a chain of ever smaller volumes: each is averaged with the next larger one") {
+  // volumes of the phase 1.2, 0.3, 0.1, 0.02; in 2, 2, 2, 1 neighbourhoods
+  Row row({0, 2, 3, 4, 5}, {0.6, 0.3, 0.1, 0.02}, {1, 2, 5, 40});
+  const double q1 = (0.15 * 2 + 0.6 * 1) / 0.75, q2 = (0.05 * 5 + 0.15 * 2) / 0.2, q3 = (0.02 * 40 + 0.05 * 5) / 0.07;
+  CHECK(row.run().merged == 3);
+  row.check({(1 + q1) / 2, (q1 + q2) / 2, (q2 + q3) / 2, q3});
+}
+
+TEST_CASE("a cell chosen by several gives each an equal share") {
+  Row row({0, 1, 1.5, 3}, {0.2, 0.9, 0.3}, {3, 1, 8});
+  const double q0 = (0.2 * 3 + 0.15 * 1) / 0.35, q2 = (0.45 * 8 + 0.15 * 1) / 0.6;
+  CHECK(row.run().merged == 2);
+  row.check({q0, (1 + q0 + q2) / 3, q2});
+}
+
+TEST_CASE("the partner is the neighbour with most of the phase, of equals the one with the smaller global number") {
+  Row more({0, 1, 2, 3}, {0.6, 0.2, 0.7}, {1, 2, 3});
+  more.run();
+  const double q = (0.2 * 2 + 0.35 * 3) / 0.55;
+  more.check({1, q, (3 + q) / 2});
+
+  Row equal({0, 1, 2, 3}, {0.6, 0.2, 0.6}, {1, 2, 3});
+  equal.run();
+  if (equal.mesh.global_id[equal.cell[0]] < equal.mesh.global_id[equal.cell[2]]) {
+    const double mean = (0.2 * 2 + 0.3 * 1) / 0.5;
+    equal.check({(1 + mean) / 2, mean, 3});
+  } else {
+    const double mean = (0.2 * 2 + 0.3 * 3) / 0.5;
+    equal.check({1, mean, (3 + mean) / 2});
+  }
+}
+
+TEST_CASE("a negative volume takes the state of its neighbourhood, unless it nearly cancels the neighbour's") {
+  Row row({0, 1, 2}, {-1e-3, 0.8}, {3, 1});
+  const double q = (-1e-3 * 3 + 0.4 * 1) / 0.399;
+  CHECK(row.run().merged == 1);
+  row.check({q, (1 + q) / 2});
+
+  for (const double alpha : {0.35, 0.62}) {  // the shares are -0.3 and half of this
+    Row cancel({0, 1, 2}, {-0.3, alpha}, {3, 1});
+    const RedistributionCounters counters = cancel.run();
+    CHECK(counters.merged == 1);
+    CHECK(counters.apart == 1);
+    cancel.check({3, 1});
+  }
+}
