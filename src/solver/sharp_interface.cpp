@@ -231,7 +231,7 @@ bool SharpInterface::knows_plane(std::int32_t cell) const {
 
 /// Whether the cell's arrays hold a state of the phase: its own, or the one with which it would arrive.
 bool SharpInterface::has_state(const Fields& fields, int k, std::int32_t cell) const {
-  return fields.phases[k].alpha[cell] > 0 || knows_plane(cell);
+  return fields.phases[k].alpha[cell] > 0 || (knows_plane(cell) && fields.pure[cell] >= 0);
 }
 
 /// Whether the state of a phase that the cell's arrays hold is another cell's.
@@ -490,29 +490,39 @@ void SharpInterface::spread(Fields& fields, int ring) {
   }
 }
 
-/// Where two pure cells of different phases meet and neither knows a plane, the face between them is one.
+/// Where two pure cells of different phases meet and neither knows a plane, the faces between them are one: at an edge
+/// their mean.
 void SharpInterface::seed(const Faces& faces, Fields& fields) {
   const int n = fields.n_phases();
   for (int lm = 0; lm < n * n; ++lm) contacts_[lm].clear(), speed_users_[lm].clear();
-  const auto consider = [&](std::int32_t f, std::int32_t cell, std::int32_t other, int side) {
-    if (cell >= mesh_.n_owned) return;
-    const int own = fields.pure[cell], there = fields.pure[other];
+  for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) {
+    const int own = fields.pure[cell];
+    if (own < 0) continue;
     for (const int k : planes_of_) {
-      if ((own != k && there != k) || valid(k, cell)) continue;
-      const double out = (side == 0 ? 1.0 : -1.0) * (own == k ? 1.0 : -1.0);  // outward from phase k
-      const Point normal = out * Point{faces.nx[f], faces.ny[f], faces.nz[f]};
-      adopt(fields, k, cell, other, {normal, dot(normal, outlines_.center(f, side))}, 0, 2);
+      if (valid(k, cell)) continue;
+      Point sum{0, 0, 0};
+      std::int32_t widest = -1;
+      double distance = 0, area = 0, largest = 0;
+      for_each_face(cell, [&](std::int32_t f, int side) {
+        if (f >= mesh_.first_boundary_face()) return;
+        const std::int32_t other = side == 0 ? mesh_.right[f] : mesh_.left[f];
+        const int there = fields.pure[other];
+        if (there < 0 || there == own || (own != k && there != k)) return;
+        const double out = (side == 0 ? 1.0 : -1.0) * (own == k ? 1.0 : -1.0);  // outward from phase k
+        const Point normal = out * Point{faces.nx[f], faces.ny[f], faces.nz[f]};
+        sum = sum + faces.area[f] * normal;
+        distance += faces.area[f] * dot(normal, outlines_.center(f, side));
+        area += faces.area[f];
+        if (faces.area[f] > largest) largest = faces.area[f], widest = other;
+      });
+      if (widest < 0 || !(length(sum) > 0)) continue;
+      const Point normal = normalised(sum);
+      adopt(fields, k, cell, widest, {normal, distance / area}, 0, 2);
       frontier_.push_back(cell);
-      const int m = own == k ? there : own;
-      contacts_[k * n + m].push(cell, own == k ? cell : other, own == k ? other : cell, 0, normal);
+      const int m = own == k ? fields.pure[widest] : own;
+      contacts_[k * n + m].push(cell, own == k ? cell : widest, own == k ? widest : cell, 0, normal);
       speed_users_[k * n + m].emplace_back(cell, k);
     }
-  };
-  for (std::int32_t f = 0; f < mesh_.first_boundary_face(); ++f) {
-    const std::int32_t left = mesh_.left[f], right = mesh_.right[f];
-    if (fields.pure[left] == fields.pure[right] || fields.pure[left] < 0 || fields.pure[right] < 0) continue;
-    consider(f, left, right, 0);
-    consider(f, right, left, 1);
   }
   run_speeds(fields);
 }
@@ -591,11 +601,12 @@ void SharpInterface::wet_face(const Faces& faces, Fields& fields, std::int32_t f
   for (int k = 0; k < n; ++k) {
     const Phase& phase = fields.phases[k];
     const bool in_left = phase.alpha[left] > 0, in_right = phase.alpha[right] > 0;
-    if (phase.is_void || wetted(k) == 0 || in_left == in_right) continue;
+    if (phase.is_void || wetted(k) == 0 || (in_left && in_right)) continue;
+    if (in_left == in_right && has_state(fields, k, left) && has_state(fields, k, right)) continue;
     const std::int32_t present = in_left ? left : right;
     double un = phase.primitive[1][present] * faces.nx[face] + phase.primitive[2][present] * faces.ny[face];
     if (fields.dimension == 3) un += phase.primitive[3][present] * faces.nz[face];
-    if ((in_left ? un : -un) > 0) continue;
+    if (in_left != in_right && (in_left ? un : -un) > 0) continue;
     sum -= wetted(k);
     wetted(k) = 0;
   }
