@@ -127,6 +127,7 @@ SECOND = {"scheme.order": "2", "cfl": "0.8", "scheme.limiter": '"monotone"'}
 UNLIMITED = {"scheme.limiter": '"none"'}
 DIFFUSE = {"scheme.interface": '"diffuse"'}
 SHARP = {"scheme.interface": '"sharp"'}
+COMPRESSED = {"scheme.interface": '"compressed"'}
 LOW_MACH = {"scheme.low_mach": '"on"'}
 ACOUSTIC = {"scheme.low_mach": '"off"'}
 
@@ -146,6 +147,7 @@ TWO_PHASES = {
     "order 1, sharp": FIRST | SHARP | ACOUSTIC,
     "order 2, diffuse": SECOND | DIFFUSE | ACOUSTIC,
     "order 2, sharp": SECOND | SHARP | ACOUSTIC,
+    "order 2, compressed": SECOND | COMPRESSED | ACOUSTIC,
     "order 2, sharp, unlimited": SECOND | SHARP | UNLIMITED | ACOUSTIC,
 }
 
@@ -249,7 +251,7 @@ CASES = {
     "droplet": Case(
         {
             f"{scheme}, {name}": TWO_PHASES[scheme] | keys
-            for scheme in ("order 1, diffuse", "order 1, sharp", "order 2, diffuse", "order 2, sharp")
+            for scheme in ("order 1, diffuse", "order 2, diffuse", "order 2, compressed")
             for name, keys in (("acoustic", ACOUSTIC), ("low Mach", LOW_MACH))
         },
         droplet(),
