@@ -164,6 +164,12 @@ def draw(case, runs, picture):
     plot.close(figure)
 
 
+def where_it_stopped(words):
+    """The step and the phase of a run that turned unphysical; else what it said."""
+    stopped = re.search(r"stopped: (step \d+), .*?(phase '\w+')", words)
+    return f"{stopped[1]}, {stopped[2]}" if stopped else words or "the error is zero to round-off"
+
+
 def table(runs):
     """Markdown: the runs on each case's front, and the ones that failed."""
     lines = ["| case | error | core seconds | scheme | mesh | same error with order 1 |", "|---|---|---|---|---|---|"]
@@ -183,7 +189,7 @@ def table(runs):
     if failed:
         lines.append("")
     lines += [
-        f"- {run.case}, {run.scheme}, {run.label()}: exit status {run.exit}; {run.words or 'no error measured'}"
+        f"- {run.case}, {run.scheme}, {run.label()}: exit status {run.exit}; {where_it_stopped(run.words)}"
         for run in failed
     ]
     return "\n".join(lines) + "\n"

@@ -88,26 +88,32 @@ struct Neighbourhood {
                           cell);
     return w;
   }
-  /// Behind face j: another cell, or the mirror image of this one.
+  /// Turns v into its mirror image where face j is a mirror.
+  template <class Component>
+  void reflect(int j, const Component& v) const {
+    Indices<Real> face = lookup<Real>(&faces.cell_faces[entry(j)], at);
+    for (auto& f : face) f >>= 1;
+    const AlignedVector<double>* const normals[] = {&faces.nx, &faces.ny, &faces.nz};
+    const Real twice = of_entry(stencil.mirror, j);
+    std::array<Real, D> normal;
+    Real along(0.0);
+    for (int d = 0; d < D; ++d) {
+      normal[d] = gather<Real>(normals[d]->data(), face);
+      along = along + v(d) * normal[d];
+    }
+    for (int d = 0; d < D; ++d) v(d) = v(d) - twice * along * normal[d];
+  }
+  /// Behind face j: another cell, or the mirror image of this one. The cobasis has no image: its vectors belong to the
+  /// body's own coordinates, which a mirror would turn too; it is taken as even.
   State beyond(int j) const {
     State w = state(neighbour(j));
-    if constexpr (Mirrors) {
-      Indices<Real> face = lookup<Real>(&faces.cell_faces[entry(j)], at);
-      for (auto& f : face) f >>= 1;
-      const AlignedVector<double>* const normals[] = {&faces.nx, &faces.ny, &faces.nz};
-      const Real twice = of_entry(stencil.mirror, j);
-      std::array<Real, D> normal;
-      for (int d = 0; d < D; ++d) normal[d] = gather<Real>(normals[d]->data(), face);
-      const auto reflect = [&](int first) {
-        Real along(0.0);
-        for (int d = 0; d < D; ++d) along = along + w[first + d] * normal[d];
-        for (int d = 0; d < D; ++d) w[first + d] = w[first + d] - twice * along * normal[d];
-      };
-      reflect(P::u);
-      if constexpr (K == Kind::solid)
-        for (int beta = 0; beta < D; ++beta) reflect(P::e + beta * D);
-    }
+    if constexpr (Mirrors) reflect(j, [&](int d) -> Real& { return w[P::u + d]; });
     return w;
+  }
+  /// The gradients of the mirror image.
+  void mirror(typename P::template Gradients<Real>& gradient, int j) const {
+    for (auto& of_quantity : gradient) reflect(j, [&](int d) -> Real& { return of_quantity[d]; });
+    for (int along = 0; along < D; ++along) reflect(j, [&](int d) -> Real& { return gradient[P::u + d][along]; });
   }
 };
 
@@ -159,11 +165,13 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
         const Indices<Real> neighbour = here.neighbour(j);
         const Real share = here.of_entry(stencil.average, j);
         const Mask<Real> known = gather<Real>(phase.slopes_known.data(), neighbour) * share > Real(0.0);
+        typename P::template Gradients<Real> other;
         for (int v = 0; v < P::size; ++v)
-          for (int d = 0; d < D; ++d) {
-            const Real other = gather<Real>(phase.slopes.component(v * D + d), neighbour);
-            gradient[v][d] = gradient[v][d] + select(known, share * (other - own[v][d]), Real(0.0));
-          }
+          for (int d = 0; d < D; ++d) other[v][d] = gather<Real>(phase.slopes.component(v * D + d), neighbour);
+        if constexpr (Mirrors) here.mirror(other, j);
+        for (int v = 0; v < P::size; ++v)
+          for (int d = 0; d < D; ++d)
+            gradient[v][d] = gradient[v][d] + select(known, share * (other[v][d] - own[v][d]), Real(0.0));
       }
     } else {
       for (auto& of_quantity : gradient) of_quantity.fill(Real(0.0));

@@ -99,9 +99,10 @@ Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Bou
     }
     const double own = own_weight(mesh.cell_type[cell]);
     int others = 0;
-    const auto has_neighbour = [&](int j) {
-      const std::int32_t entry = mesh.cell_faces[static_cast<std::size_t>(j) * stencil.stride + cell];
-      return entry >= 0 && (entry >> 1) < mesh.first_boundary_face();
+    const auto has_neighbour = [&](int j) {  // another cell, or its own mirror image
+      const std::size_t at = static_cast<std::size_t>(j) * stencil.stride + cell;
+      const std::int32_t entry = mesh.cell_faces[at];
+      return entry >= 0 && ((entry >> 1) < mesh.first_boundary_face() || stencil.mirror[at] != 0);
     };
     for (int j = 0; j < stencil.size; ++j) others += has_neighbour(j);
     for (int j = 0; j < stencil.size && own >= 0; ++j)
