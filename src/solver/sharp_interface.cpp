@@ -202,14 +202,13 @@ Point SharpInterface::fitted_normal(int k, std::int32_t cell) const {
   return normalised(n + p * t1 + q * t2);
 }
 
-void SharpInterface::exchange_blends(const Fields& fields) {
+void SharpInterface::exchange_blends() {
   if (mesh_.neighbours.empty()) return;
   const auto for_each = [&](const auto& cells, const auto& visit) {
     for (const std::int32_t cell : cells)
       for (const int k : planes_of_)
         if (valid(k, cell) && cells_[k][cell].ring == -1) visit(cells_[k][cell].blend);
   };
-  static_cast<void>(fields);
   for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
     std::vector<double>& out = exchange_.outgoing(i);
     out.clear();
@@ -635,7 +634,7 @@ void SharpInterface::wet(const Faces& faces, Fields& fields, double dt) {
     for (const std::int32_t cell : mixed_cells_)
       if (is_cut(fields, k, cell)) cells_[k][cell].blend = blend_of(fields, k, cell, dt);
   }
-  exchange_blends(fields);
+  exchange_blends();
   const auto faces_of = [&](std::int32_t cell) { for_each_face(cell, [&](std::int32_t f, int) { consider(f); }); };
   for (const auto* cells : {&cut_cells_, &mixed_cells_, &frontier_})
     for (const std::int32_t cell : *cells) faces_of(cell);

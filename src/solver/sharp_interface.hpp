@@ -51,7 +51,7 @@ class SharpInterface {
   Point mean_normal(int k, std::int32_t cell) const;
   Point fitted_normal(int k, std::int32_t cell) const;
   void exchange(Fields& fields);
-  void exchange_blends(const Fields& fields);
+  void exchange_blends();
   void find_speeds(Fields& fields);
   void seed(const Faces& faces, Fields& fields);
   void spread(Fields& fields, int ring);
@@ -87,8 +87,7 @@ class SharpInterface {
 
   std::vector<std::int32_t> cut_cells_, mixed_cells_;  // owned cells of several phases, with planes and without
   std::vector<std::int32_t> frontier_, next_, near_faces_;
-  std::vector<std::pair<std::int32_t, int>> speed_of_;  // whose speed each entry of a list is: cell and phase
-  std::vector<ContactList> contacts_;                   // [l * n + m], l < m, the void last
+  std::vector<ContactList> contacts_;  // [l * n + m], l < m, the void last
   std::vector<std::vector<std::pair<std::int32_t, int>>> speed_users_;
   std::vector<std::vector<std::int8_t>> health_;     // [phase][cell]: see find_health
   std::vector<std::vector<std::int64_t>> followed_;  // [phase][cell]: the last step in which it was a follower
