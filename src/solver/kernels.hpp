@@ -11,12 +11,10 @@ namespace cobasis {
 
 struct PhaseKernels {
   void (*primitives)(Phase&, const CellList&, std::int32_t n, BadCells&) = nullptr;
-  /// Order 2: states on both sides of the faces of the listed cells; [with mirrors among them][with averaged
-  /// gradients].
-  std::int64_t (*reconstruct[2][2])(Phase&, const Faces&, const Stencil&, const CellList&, std::int32_t n,
+  /// Order 2: states on both sides of the faces of the listed cells; [Around][with averaged gradients].
+  std::int64_t (*reconstruct[3][2])(Phase&, const Faces&, const Stencil&, const CellList&, std::int32_t n,
                                     const ReconstructionOptions&) = {};
-  void (*find_slopes[2])(Phase&, const Faces&, const Stencil&, const CellList&,
-                         std::int32_t n) = {};  ///< [with mirrors]
+  void (*find_slopes[3])(Phase&, const Faces&, const Stencil&, const CellList&, std::int32_t n) = {};  ///< [Around]
   void (*copy_to_faces)(Phase&, const Faces&, const CellList&, std::int32_t n) = nullptr;
   void (*sweep_pure)(Faces&, Phase&, Segment) = nullptr;
   void (*sweep_pure_mirror)(Faces&, Phase&, Segment) = nullptr;

@@ -5,25 +5,27 @@
 
 namespace cobasis {
 
-template <class G, Kind K, class Real, bool Mirrors, bool Averaged>
+template <class G, Kind K, class Real, Around A, bool Averaged>
 std::int64_t reconstruct_phase(Phase& phase, const Faces& faces, const Stencil& stencil, const CellList& cells,
                                std::int32_t n, const ReconstructionOptions& options) {
   return std::visit(
       [&]<class EquationOfState>(const EquationOfState& eos) {
-        return reconstruct<G, K, Real, EquationOfState, Mirrors, Averaged>(phase, eos, faces, stencil, cells, n,
-                                                                           options);
+        return reconstruct<G, K, Real, EquationOfState, A, Averaged>(phase, eos, faces, stencil, cells, n, options);
       },
       phase.eos);
 }
 
 template <class G, Kind K, class Real>
 void add_second_order(PhaseKernels& kernels) {
-  kernels.reconstruct[0][0] = &reconstruct_phase<G, K, Real, false, false>;
-  kernels.reconstruct[1][0] = &reconstruct_phase<G, K, Real, true, false>;
-  kernels.reconstruct[0][1] = &reconstruct_phase<G, K, Real, false, true>;
-  kernels.reconstruct[1][1] = &reconstruct_phase<G, K, Real, true, true>;
-  kernels.find_slopes[0] = &find_slopes<G, K, Real, false>;
-  kernels.find_slopes[1] = &find_slopes<G, K, Real, true>;
+  const auto add = [&]<Around A>(std::integral_constant<Around, A>) {
+    constexpr int around = static_cast<int>(A);
+    kernels.reconstruct[around][0] = &reconstruct_phase<G, K, Real, A, false>;
+    kernels.reconstruct[around][1] = &reconstruct_phase<G, K, Real, A, true>;
+    kernels.find_slopes[around] = &find_slopes<G, K, Real, A>;
+  };
+  add(std::integral_constant<Around, Around::phase>());
+  add(std::integral_constant<Around, Around::mirrors>());
+  add(std::integral_constant<Around, Around::gaps>());
   kernels.copy_to_faces = &copy_to_faces<G, K, Real>;
 }
 

@@ -16,6 +16,14 @@ struct ReconstructionOptions {
 /// own scales (rho, c, rho c^2, |e|) times Stencil::tolerance. It keeps smooth extrema at second order.
 inline constexpr double smooth_extremum = 0.5;
 
+/// A phase has slopes in a cell that holds more than this of it, over neighbours that do too: what a trace does is no
+/// measure of the others.
+inline constexpr double least_for_slopes = 0.05;
+
+/// What is around the cells of a list: neighbours that all hold the phase, the same and mirrors among them, or also
+/// neighbours without it.
+enum class Around { phase, mirrors, gaps };
+
 /// A state at a face, with what the EOS and the stored energy make of it.
 template <class G, Kind K, class Real, class EquationOfState>
 void store_face_state(Phase& phase, const EquationOfState& eos,
@@ -62,8 +70,39 @@ COBASIS_KERNEL void copy_to_faces(Phase& phase, const Faces& faces, const CellLi
   }
 }
 
+/// Share of the whole stencil's weight that stands in for directions without neighbours, so that they get no slope.
+inline constexpr double least_known = 0.02;
+
+template <class Real>
+std::array<Real, 2> product(const std::array<std::array<Real, 2>, 2>& m, const std::array<Real, 2>& v) {
+  return {m[0][0] * v[0] + m[0][1] * v[1], m[1][0] * v[0] + m[1][1] * v[1]};
+}
+template <class Real>
+std::array<Real, 3> product(const std::array<std::array<Real, 3>, 3>& m, const std::array<Real, 3>& v) {
+  std::array<Real, 3> result;
+  for (int a = 0; a < 3; ++a) result[a] = m[a][0] * v[0] + m[a][1] * v[1] + m[a][2] * v[2];
+  return result;
+}
+/// Of symmetric matrices.
+template <class Real>
+std::array<std::array<Real, 2>, 2> inverse_of(const std::array<std::array<Real, 2>, 2>& m) {
+  const Real scale = 1.0 / (m[0][0] * m[1][1] - m[0][1] * m[0][1]);
+  const Real off = -scale * m[0][1];
+  return {{{scale * m[1][1], off}, {off, scale * m[0][0]}}};
+}
+template <class Real>
+std::array<std::array<Real, 3>, 3> inverse_of(const std::array<std::array<Real, 3>, 3>& m) {
+  const auto minor = [&](int a, int b, int c, int d) { return m[a][c] * m[b][d] - m[a][d] * m[b][c]; };
+  const Real xx = minor(1, 2, 1, 2), xy = minor(1, 2, 2, 0), xz = minor(1, 2, 0, 1);
+  const Real scale = 1.0 / (m[0][0] * xx + m[0][1] * xy + m[0][2] * xz);
+  const Real yy = minor(0, 2, 0, 2), yz = minor(0, 2, 1, 0), zz = minor(0, 1, 0, 1);
+  return {{{scale * xx, scale * xy, scale * xz},
+           {scale * xy, scale * yy, scale * yz},
+           {scale * xz, scale * yz, scale * zz}}};
+}
+
 /// Values of a phase in cells and beyond their faces, as Primitives numbers them.
-template <class G, Kind K, class Real, bool Mirrors>
+template <class G, Kind K, class Real, Around A>
 struct Neighbourhood {
   using L = Layout<G, K>;
   using P = Primitives<G, K>;
@@ -105,11 +144,48 @@ struct Neighbourhood {
   }
   /// Behind face j: another cell, or the mirror image of this one. The cobasis has no image: its vectors belong to the
   /// body's own coordinates, which a mirror would turn too; it is taken as even.
-  State beyond(int j) const {
-    State w = state(neighbour(j));
-    if constexpr (Mirrors) reflect(j, [&](int d) -> Real& { return w[P::u + d]; });
-    return w;
+  /// Where that does not hold the phase, `w`, the cell's own state.
+  State beyond(int j, const State& w) const {
+    State other = state(neighbour(j));
+    if constexpr (A != Around::phase) reflect(j, [&](int d) -> Real& { return other[P::u + d]; });
+    if constexpr (A == Around::gaps) {
+      const Mask<Real> there = holds(j);
+      for (int v = 0; v < P::size; ++v) other[v] = select(there, other[v], w[v]);
+    }
+    return other;
   }
+  Mask<Real> holds(int j) const { return gather<Real>(phase.alpha.data(), neighbour(j)) > Real(least_for_slopes); }
+  /// Least squares. Where some neighbours do not hold the phase, over the others, and a direction in which there is
+  /// none gets no slope.
+  typename P::template Gradients<Real> gradient(const State& w) const {
+    typename P::template Gradients<Real> of{};
+    std::array<std::array<Real, D>, D> all{}, held{};
+    for (int j = 0; j < stencil.size; ++j) {
+      const State other = beyond(j, w);
+      std::array<Real, D> weight;
+      for (int d = 0; d < D; ++d) weight[d] = of_entry(stencil.weight[d], j);
+      if constexpr (A == Around::gaps) {
+        const Real share = select(holds(j), Real(1.0), Real(0.0));
+        for (int a = 0; a < D; ++a)
+          for (int b = 0; b < D; ++b) {
+            all[a][b] = all[a][b] + weight[a] * weight[b];
+            held[a][b] = held[a][b] + share * (weight[a] * weight[b]);
+          }
+      }
+      for (int v = 0; v < P::size; ++v)
+        for (int d = 0; d < D; ++d) of[v][d] = of[v][d] + weight[d] * (other[v] - w[v]);
+    }
+    if constexpr (A == Around::gaps) {
+      // With weights q = M^-1 r of the whole stencil, M = sum r r^T: (N + small M^-1) M g = sum q (value_j - value)
+      // over the neighbours held, N = sum q q^T over them and M^-1 the same over all.
+      for (int a = 0; a < D; ++a)
+        for (int b = 0; b < D; ++b) held[a][b] = held[a][b] + least_known * all[a][b];
+      const auto inverse = inverse_of(held);
+      for (auto& g : of) g = product(all, product(inverse, g));
+    }
+    return of;
+  }
+
   /// The gradients of the mirror image.
   void mirror(typename P::template Gradients<Real>& gradient, int j) const {
     for (auto& of_quantity : gradient) reflect(j, [&](int d) -> Real& { return of_quantity[d]; });
@@ -118,22 +194,14 @@ struct Neighbourhood {
 };
 
 /// Keeps the gradients of a phase in the listed cells, to be averaged.
-template <class G, Kind K, class Real, bool Mirrors>
+template <class G, Kind K, class Real, Around A>
 COBASIS_KERNEL void find_slopes(Phase& phase, const Faces& faces, const Stencil& stencil, const CellList& cells,
                                 std::int32_t n) {
   using P = Primitives<G, K>;
   constexpr int D = G::dimension;
   for (std::int32_t i = 0; i < n; i += lanes<Real>) {
-    const Neighbourhood<G, K, Real, Mirrors> here{phase, faces, stencil, load_indices<Real>(&cells[i])};
-    const auto w = here.state(here.at);
-    typename P::template Gradients<Real> gradient{};
-    for (int j = 0; j < stencil.size; ++j) {
-      const auto other = here.beyond(j);
-      for (int d = 0; d < D; ++d) {
-        const Real weight = here.of_entry(stencil.weight[d], j);
-        for (int v = 0; v < P::size; ++v) gradient[v][d] = gradient[v][d] + weight * (other[v] - w[v]);
-      }
-    }
+    const Neighbourhood<G, K, Real, A> here{phase, faces, stencil, load_indices<Real>(&cells[i])};
+    const auto gradient = here.gradient(here.state(here.at));
     for (int v = 0; v < P::size; ++v)
       for (int d = 0; d < D; ++d) scatter(gradient[v][d], phase.slopes.component(v * D + d), here.at);
   }
@@ -141,7 +209,7 @@ COBASIS_KERNEL void find_slopes(Phase& phase, const Faces& faces, const Stencil&
 
 /// Writes the state of a phase in the faces' buffer on the listed cells' sides. Returns in how many cells the state
 /// would have been inadmissible at a face; those are taken as they are, at first order.
-template <class G, Kind K, class Real, class EquationOfState, bool Mirrors, bool Averaged>
+template <class G, Kind K, class Real, class EquationOfState, Around A, bool Averaged>
 COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos, const Faces& faces,
                                         const Stencil& stencil, const CellList& cells, std::int32_t n,
                                         const ReconstructionOptions& options) {
@@ -151,7 +219,7 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
   std::int64_t fallen = 0;
   for (std::int32_t i = 0; i < n; i += lanes<Real>) {
     const Indices<Real> at = load_indices<Real>(&cells[i]);
-    const Neighbourhood<G, K, Real, Mirrors> here{phase, faces, stencil, at};
+    const Neighbourhood<G, K, Real, A> here{phase, faces, stencil, at};
     const auto w = here.state(at);
     auto low = w, high = w;
     typename P::template State<Real> slope_factor;
@@ -168,25 +236,19 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
         typename P::template Gradients<Real> other;
         for (int v = 0; v < P::size; ++v)
           for (int d = 0; d < D; ++d) other[v][d] = gather<Real>(phase.slopes.component(v * D + d), neighbour);
-        if constexpr (Mirrors) here.mirror(other, j);
+        if constexpr (A != Around::phase) here.mirror(other, j);
         for (int v = 0; v < P::size; ++v)
           for (int d = 0; d < D; ++d)
             gradient[v][d] = gradient[v][d] + select(known, share * (other[v][d] - own[v][d]), Real(0.0));
       }
     } else {
-      for (auto& of_quantity : gradient) of_quantity.fill(Real(0.0));
+      gradient = here.gradient(w);
     }
     for (int j = 0; j < stencil.size; ++j) {
-      const auto other = here.beyond(j);
+      const auto other = here.beyond(j, w);
       for (int v = 0; v < P::size; ++v) {
         low[v] = smaller(low[v], other[v]);
         high[v] = larger(high[v], other[v]);
-      }
-      if constexpr (!Averaged) {
-        for (int d = 0; d < D; ++d) {
-          const Real weight = here.of_entry(stencil.weight[d], j);
-          for (int v = 0; v < P::size; ++v) gradient[v][d] = gradient[v][d] + weight * (other[v] - w[v]);
-        }
       }
     }
 
@@ -220,8 +282,9 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
         for (int v = 0; v < P::size; ++v) {
           const Real change = along(v, r);
           const Real room = select(change > Real(0.0), high[v], low[v]);
-          slope_factor[v] =
-              smaller(slope_factor[v], select(magnitude(change) <= magnitude(room), Real(1.0), room / change));
+          Mask<Real> fits = magnitude(change) <= magnitude(room);
+          if constexpr (A == Around::gaps) fits = fits || !here.holds(j);
+          slope_factor[v] = smaller(slope_factor[v], select(fits, Real(1.0), room / change));
         }
       }
       // one factor for all components of e: limited one by one, they would no longer belong to one deformation

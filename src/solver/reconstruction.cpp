@@ -8,9 +8,7 @@
 namespace cobasis {
 namespace {
 
-/// A phase has slopes in a cell where it and all its neighbours hold more than this of it: what a trace does is no
-/// measure of the others.
-constexpr double least_for_slopes = 0.05;
+constexpr int gaps = static_cast<int>(Around::gaps);
 
 /// Per neighbour the faces shared with it: 2 face + own side.
 std::vector<std::vector<std::int32_t>> shared_faces(const Mesh& mesh) {
@@ -48,6 +46,7 @@ Reconstruction::Reconstruction(const Mpi& mpi, const Mesh& mesh, const Faces& fa
     : stencil_(make_stencil(mesh, faces, boundaries, mpi)),
       kernels_(kernels),
       with_slopes_(mesh.n_owned),
+      beside_gaps_(mesh.n_owned),
       without_(mesh.n_owned),
       halo_faces_(shared_faces(mesh)),
       exchange_(mpi, mesh.neighbours, capacities(halo_faces_, kernels), 14) {
@@ -100,16 +99,17 @@ Reconstruction::Reconstruction(const Mpi& mpi, const Mesh& mesh, const Faces& fa
   }
 }
 
-/// Cells of a group in which phase k is present: with_slopes_ and without_, both filled up to a pack.
+/// Cells of a group in which phase k is present: with_slopes_, beside_gaps_ and without_.
 void Reconstruction::select(const Group& group, const Fields& fields, int k, int mirrors) {
   const CellList& cells = group.cells[mirrors];
   with_slopes_.clear();
+  beside_gaps_.clear();
   without_.clear();
   const AlignedVector<double>& alpha = fields.phases[k].alpha;
   for (std::int32_t i = 0; i < cells.size(); i += pack_width) {
     const Indices<Pack> at = load_indices<Pack>(&cells[i]);
     const unsigned valid = cells.size() - i >= pack_width ? (1u << pack_width) - 1 : (1u << (cells.size() - i)) - 1;
-    unsigned present = valid, sloping = valid;
+    unsigned present = valid, sloping = valid, some = valid;
     if (fields.multiphase()) {
       const Pack own = gather<Pack>(alpha.data(), at);
       Pack least = own;
@@ -118,12 +118,15 @@ void Reconstruction::select(const Group& group, const Fields& fields, int k, int
         least = smaller(least, gather<Pack>(alpha.data(), lookup<Pack>(neighbours, at)));
       }
       present &= positive_lanes(own);
+      some &= positive_lanes(own - Pack(least_for_slopes));
       sloping &= positive_lanes(least - Pack(least_for_slopes));
     }
     store_chosen(sloping, at, with_slopes_.end());
     with_slopes_.grow(std::popcount(sloping));
-    store_chosen(present & ~sloping, at, without_.end());
-    without_.grow(std::popcount(present & ~sloping));
+    store_chosen(some & ~sloping, at, beside_gaps_.end());
+    beside_gaps_.grow(std::popcount(some & ~sloping));
+    store_chosen(present & ~some, at, without_.end());
+    without_.grow(std::popcount(present & ~some));
   }
 }
 
@@ -133,11 +136,13 @@ void Reconstruction::find_slopes(Group& group, Fields& fields, const Faces& face
     if (phase.is_void) continue;
     for (int mirrors = 0; mirrors < 2; ++mirrors) {
       select(group, fields, k, mirrors);
-      const std::int32_t count = with_slopes_.size();
-      for (const std::int32_t cell : with_slopes_.span()) phase.slopes_known[cell] = 1;
       for (const std::int32_t cell : without_.span()) phase.slopes_known[cell] = 0;
-      with_slopes_.fill(pack_width);
-      kernels_[k].find_slopes[mirrors](phase, faces, stencil_, with_slopes_, count);
+      for (const auto& [list, around] : {std::pair(&with_slopes_, mirrors), std::pair(&beside_gaps_, gaps)}) {
+        const std::int32_t count = list->size();
+        for (const std::int32_t cell : list->span()) phase.slopes_known[cell] = 1;
+        list->fill(pack_width);
+        kernels_[k].find_slopes[around](phase, faces, stencil_, *list, count);
+      }
     }
   }
 }
@@ -175,12 +180,14 @@ void Reconstruction::run(Group& group, Fields& fields, const Faces& faces, const
     if (phase.is_void) continue;
     for (int mirrors = 0; mirrors < 2; ++mirrors) {
       select(group, fields, k, mirrors);
-      const std::int32_t count = with_slopes_.size(), others = without_.size();
-      with_slopes_.fill(pack_width);
+      for (const auto& [list, around] : {std::pair(&with_slopes_, mirrors), std::pair(&beside_gaps_, gaps)}) {
+        const std::int32_t count = list->size();
+        list->fill(pack_width);
+        fallen_ += kernels_[k].reconstruct[around][stencil_.averages](phase, faces, stencil_, *list, count, options);
+        reconstructed_ += count;
+      }
+      const std::int32_t others = without_.size();
       without_.fill(pack_width);
-      fallen_ +=
-          kernels_[k].reconstruct[mirrors][stencil_.averages](phase, faces, stencil_, with_slopes_, count, options);
-      reconstructed_ += count;
       if (others > 0) kernels_[k].copy_to_faces(phase, faces, without_, others);
     }
   }
