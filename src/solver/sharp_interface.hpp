@@ -98,4 +98,17 @@ class SharpInterface {
   bool settled_ = false;  // whether the normals have been found once
 };
 
+template <class Visit>
+void SharpInterface::for_each_face(std::int32_t cell, const Visit& visit) const {
+  if (cell < mesh_.n_owned) {
+    for (int j = 0; j < mesh_.max_cell_faces; ++j) {
+      const std::int32_t entry = mesh_.cell_faces[static_cast<std::size_t>(j) * mesh_.cell_stride + cell];
+      if (entry >= 0) visit(entry >> 1, entry & 1);
+    }
+  } else {
+    for (std::int32_t i = halo_face_begin_[cell - mesh_.n_owned]; i < halo_face_begin_[cell - mesh_.n_owned + 1]; ++i)
+      visit(halo_faces_[i] >> 1, halo_faces_[i] & 1);
+  }
+}
+
 }  // namespace cobasis

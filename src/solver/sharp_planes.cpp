@@ -1,0 +1,425 @@
+// Where the planes of sharp interfaces lie: in cut cells, and in the rings around them.
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/geometry.hpp"
+#include "solver/sharp_interface.hpp"
+
+namespace cobasis {
+namespace {
+
+constexpr int first_means = 4, first_fits = 30,
+              fits_per_step = 2;  ///< passes over the normals: they converge quadratically
+constexpr int rings = 3;          ///< of cells around the cut ones that know the plane nearby
+
+Point normalised(const Point& a) { return (1 / length(a)) * a; }
+
+}  // namespace
+
+/// How near a cell is, over cells with the phase, to one that is half full of it; 0: farther than `reach` cells. What
+/// has nobody to share its state with is a film or a splinter thinner than a cell: a plane there would let waves cross
+/// it faster than the step can follow.
+void SharpInterface::find_health(Fields& fields) {
+  constexpr int reach = 3;
+  for (int k = 0; k < fields.n_phases(); ++k) {
+    const auto& alpha = fields.phases[k].alpha;
+    for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell)
+      health_[k][cell] = fields.phases[k].is_void || !(alpha[cell] > 0) || alpha[cell] >= 0.5 ? reach + 1 : 0;
+  }
+  for (int distance = 1; distance <= reach; ++distance) {
+    for (int k = 0; k < fields.n_phases(); ++k) {
+      const auto& alpha = fields.phases[k].alpha;
+      for (const std::int32_t cell : cut_cells_) {
+        if (health_[k][cell] > 0) continue;
+        for_each_face(cell, [&](std::int32_t f, int side) {
+          if (f >= mesh_.first_boundary_face()) return;
+          const std::int32_t other = side == 0 ? mesh_.right[f] : mesh_.left[f];
+          if (alpha[other] > 0 && health_[k][other] == reach + 2 - distance)
+            health_[k][cell] = static_cast<std::int8_t>(reach + 1 - distance);
+        });
+      }
+    }
+    exchange(fields);
+  }
+}
+
+/// Whether the cell tells its neighbours of the planes of its interfaces.
+bool SharpInterface::has_planes(const Fields& fields, std::int32_t cell) const {
+  if (!shares_planes_) return false;
+  for (int k = 0; k < fields.n_phases(); ++k)
+    if (health_[k][cell] == 0) return false;
+  return true;
+}
+
+bool SharpInterface::is_cut(const Fields& fields, int k, std::int32_t cell) const {
+  const double alpha = fields.phases[k].alpha[cell];
+  return alpha > 0 && alpha < 1;
+}
+
+/// Outward normal of phase k by Gauss' theorem: rough, but there is none yet.
+Point SharpInterface::gradient(const Faces& faces, const Fields& fields, int k, std::int32_t cell) const {
+  const auto& alpha = fields.phases[k].alpha;
+  Point sum{0, 0, 0};
+  for_each_face(cell, [&](std::int32_t f, int side) {
+    const double out = side == 0 ? 1 : -1;
+    const bool open = f < mesh_.first_boundary_face();
+    const double beyond = alpha[open ? (side == 0 ? mesh_.right[f] : mesh_.left[f]) : cell];
+    sum = sum - (out * faces.area[f] * (alpha[cell] + beyond)) * Point{faces.nx[f], faces.ny[f], faces.nz[f]};
+  });
+  return length(sum) > 0 ? normalised(sum) : Point{1, 0, 0};
+}
+
+void SharpInterface::put_plane(const Fields& fields, int k, std::int32_t cell, const Point& n) {
+  if (corners_at_[cell] < 0) {
+    corners_at_[cell] = static_cast<std::int32_t>(corners_.size());
+    corners_.push_back(corners_of(mesh_, cell));
+  }
+  const CellCorners& corners = corners_[corners_at_[cell]];
+  Cell& c = cells_[k][cell];
+  c.plane = {n, place_plane(corners, n, fields.phases[k].alpha[cell])};
+  c.cut = section(corners, c.plane);
+  c.ring = 1;
+  c.step = step_;
+}
+
+/// Mean over the cell and its neighbours: rids rough normals of outliers.
+Point SharpInterface::mean_normal(int k, std::int32_t cell) const {
+  Point sum = cells_[k][cell].plane.n;
+  for_each_face(cell, [&](std::int32_t face, int side) {
+    if (face >= mesh_.first_boundary_face()) return;
+    const std::int32_t other = side == 0 ? mesh_.right[face] : mesh_.left[face];
+    if (valid(k, other) && std::abs(cells_[k][other].ring) == 1) sum = sum + cells_[k][other].plane.n;
+  });
+  return length(sum) > 0 ? normalised(sum) : cells_[k][cell].plane.n;
+}
+
+/// The normal turned so that the plane goes through the middles of the neighbours' planes as well as it can. Exact for
+/// planes.
+Point SharpInterface::fitted_normal(int k, std::int32_t cell) const {
+  const Cell& own = cells_[k][cell];
+  const Point n = own.plane.n;
+  Point t1{-n.y, n.x, 0}, t2{0, 0, 0};
+  if (mesh_.dimension == 3) {
+    t1 = std::fabs(n.x) > 0.6 ? normalised(Point{n.z, 0, -n.x}) : normalised(Point{0, -n.z, n.y});
+    t2 = cross(n, t1);
+  }
+  double a = 0, b = 0, c = 0, f = 0, g = 0, all = 0;
+  for_each_face(cell, [&](std::int32_t face, int side) {
+    if (face >= mesh_.first_boundary_face()) return;
+    const std::int32_t other = side == 0 ? mesh_.right[face] : mesh_.left[face];
+    const Cell& there = cells_[k][other];
+    if (!valid(k, other) || std::abs(there.ring) != 1 || dot(there.plane.n, n) < 0 || there.cut.area == 0) return;
+    const Point delta = (side == 0 ? 1.0 : -1.0) * mesh_.face_delta[face];
+    const Point r = delta + there.cut.centroid - own.cut.centroid;
+    // where a plane only scratches a cell its place is uncertain
+    const double x = dot(t1, r), y = dot(t2, r), z = dot(n, r), w = there.cut.area * there.cut.area;
+    all += w * dot(r, r);
+    a += w * x * x, b += w * x * y, c += w * y * y, f += w * x * z, g += w * y * z;
+  });
+  if (all == 0) return n;
+  a += 1e-6 * all, c += 1e-6 * all;  // what the neighbours leave open stays
+  const double det = a * c - b * b;
+  double p = -(c * f - b * g) / det, q = -(a * g - b * f) / det;
+  if (const double tilt = std::hypot(p, q); tilt > 0.5) p *= 0.5 / tilt, q *= 0.5 / tilt;
+  return normalised(n + p * t1 + q * t2);
+}
+
+/// Whether the cell's arrays hold a state of the phase: its own, or the one with which it would arrive.
+bool SharpInterface::has_state(const Fields& fields, int k, std::int32_t cell) const {
+  return fields.phases[k].alpha[cell] > 0 || (knows_plane(cell) && fields.pure[cell] >= 0);
+}
+
+/// Whether the state of a phase that the cell's arrays hold is another cell's.
+bool SharpInterface::borrows(const Fields& fields, int k, std::int32_t cell) const {
+  return !fields.phases[k].is_void && (!(fields.phases[k].alpha[cell] > 0) || followed_[k][cell] == step_);
+}
+
+void SharpInterface::borrow(Fields& fields, int k, std::int32_t cell, std::int32_t from) const {
+  Phase& phase = fields.phases[k];
+  for (auto& component : phase.primitive) component[cell] = component[from];
+  for (int c = fields.first_cobasis(); c < phase.n_conserved(); ++c)
+    phase.conserved[c][cell] = phase.conserved[c][from];
+}
+
+/// Followers take the state of the neighbour that has most of the phase; where none has a state of its own, the one
+/// with which the phase began.
+void SharpInterface::follow(Fields& fields, std::span<const std::pair<std::int32_t, int>> followers) {
+  following_.clear();
+  for (const auto& [cell, k] : followers) {
+    followed_[k][cell] = step_;
+    following_.push_back(cell);
+  }
+  for (const auto& [cell, k] : followers) {
+    if (cell >= mesh_.n_owned) continue;
+    const auto& alpha = fields.phases[k].alpha;
+    std::int32_t source = fields.n_all;
+    for_each_face(cell, [&](std::int32_t f, int side) {
+      if (f >= mesh_.first_boundary_face()) return;
+      const std::int32_t other = side == 0 ? mesh_.right[f] : mesh_.left[f];
+      if (!(alpha[other] > 0) || followed_[k][other] == step_) return;
+      if (source == fields.n_all || alpha[other] > alpha[source] ||
+          (alpha[other] == alpha[source] && mesh_.global_id[other] < mesh_.global_id[source]))
+        source = other;
+    });
+    borrow(fields, k, cell, source);
+  }
+}
+
+/// At second order sweeps look for states at the faces.
+void SharpInterface::lend_to_faces(Fields& fields, int k, std::int32_t cell) const {
+  Phase& phase = fields.phases[k];
+  const int n_primitive = static_cast<int>(phase.primitive.size());
+  for_each_face(cell, [&](std::int32_t f, int side) {
+    const std::size_t to = side * phase.face_states.stride + f;
+    for (int c = 0; c < n_primitive; ++c) phase.face_states.component(c)[to] = phase.primitive[c][cell];
+    for (int c = fields.first_cobasis(); c < phase.n_conserved(); ++c)
+      phase.face_states.component(n_primitive + c - fields.first_cobasis())[to] = phase.conserved[c][cell];
+  });
+}
+
+/// The planes of cells that other ranks have as halo, and the states that absent phases have borrowed there.
+void SharpInterface::exchange(Fields& fields) {
+  const auto for_each_borrowed = [&](std::int32_t cell, const auto& visit) {
+    const bool arriving = knows_plane(cell);
+    for (int k = 0; k < fields.n_phases(); ++k) {
+      Phase& phase = fields.phases[k];
+      if (!borrows(fields, k, cell) || (!(phase.alpha[cell] > 0) && !arriving)) continue;
+      for (auto& component : phase.primitive) visit(component[cell]);
+      for (int c = fields.first_cobasis(); c < phase.n_conserved(); ++c) visit(phase.conserved[c][cell]);
+    }
+  };
+  for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
+    std::vector<double>& out = exchange_.outgoing(i);
+    out.clear();
+    for (const std::int32_t cell : mesh_.neighbours[i].send) {
+      for (const auto& of_phase : health_) out.push_back(of_phase[cell]);
+      for (const int k : planes_of_) {
+        const Cell& c = cells_[k][cell];
+        out.push_back(valid(k, cell) ? c.ring : 0);
+        if (!valid(k, cell)) continue;
+        for (const double value : {c.plane.n.x, c.plane.n.y, c.plane.n.z, c.plane.d, c.cut.centroid.x, c.cut.centroid.y,
+                                   c.cut.centroid.z, c.cut.area, c.speed})
+          out.push_back(value);
+      }
+    }
+    for (const std::int32_t cell : mesh_.neighbours[i].send)
+      for_each_borrowed(cell, [&](double value) { out.push_back(value); });
+  }
+  exchange_.start();
+  exchange_.finish();
+  for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
+    const double* in = exchange_.incoming(i).data();
+    const Neighbour& neighbour = mesh_.neighbours[i];
+    for (std::int32_t cell = neighbour.receive_first; cell < neighbour.receive_first + neighbour.receive_count;
+         ++cell) {
+      for (auto& of_phase : health_) of_phase[cell] = static_cast<std::int8_t>(*in++);
+      for (const int k : planes_of_) {
+        const int ring = static_cast<int>(*in++);
+        if (ring == 0) continue;
+        cells_[k][cell] = {{{in[0], in[1], in[2]}, in[3]}, {in[7], {in[4], in[5], in[6]}}, in[8], 1, ring, step_};
+        in += 9;
+      }
+    }
+    for (std::int32_t cell = neighbour.receive_first; cell < neighbour.receive_first + neighbour.receive_count; ++cell)
+      for_each_borrowed(cell, [&](double& value) { value = *in++; });
+  }
+}
+
+void SharpInterface::place(const Faces& faces, Fields& fields,
+                           std::span<const std::pair<std::int32_t, int>> followers) {
+  ++step_;
+  follow(fields, followers);
+  cut_cells_.clear();
+  mixed_cells_.clear();
+  for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell)
+    if (fields.pure[cell] < 0) cut_cells_.push_back(cell);
+  if (shares_planes_) find_health(fields);
+  std::erase_if(cut_cells_, [&](std::int32_t cell) {
+    if (has_planes(fields, cell)) return false;
+    mixed_cells_.push_back(cell);
+    return true;
+  });
+  for (const int k : planes_of_)
+    for (const auto* cells : {&cut_cells_, &mixed_cells_})
+      for (const std::int32_t cell : *cells)
+        if (is_cut(fields, k, cell)) {
+          const Cell& before = cells_[k][cell];
+          put_plane(fields, k, cell, before.step == step_ - 1 ? before.plane.n : gradient(faces, fields, k, cell));
+          if (cells == &mixed_cells_) cells_[k][cell].ring = -1;
+        }
+  std::vector<Point> normals;
+  const auto renew = [&](int k, const auto& normal_of) {
+    normals.clear();
+    for (const auto* cells : {&cut_cells_, &mixed_cells_})
+      for (const std::int32_t cell : *cells)
+        if (is_cut(fields, k, cell)) normals.push_back(normal_of(cell));
+    std::size_t i = 0;
+    for (const auto* cells : {&cut_cells_, &mixed_cells_})
+      for (const std::int32_t cell : *cells)
+        if (is_cut(fields, k, cell)) {
+          put_plane(fields, k, cell, normals[i++]);
+          if (cells == &mixed_cells_) cells_[k][cell].ring = -1;
+        }
+  };
+  for (int pass = 0; pass < first_means && !settled_; ++pass) {
+    exchange(fields);
+    for (const int k : planes_of_) renew(k, [&](std::int32_t cell) { return mean_normal(k, cell); });
+  }
+  for (int pass = 0; pass < (settled_ ? fits_per_step : first_fits); ++pass) {
+    exchange(fields);
+    for (const int k : planes_of_) renew(k, [&](std::int32_t cell) { return fitted_normal(k, cell); });
+  }
+  settled_ = true;
+  find_speeds(fields);
+  exchange(fields);
+  spread(fields, 2);
+  seed(faces, fields);
+  exchange(fields);
+  for (int ring = 3; ring <= rings; ++ring) {
+    spread(fields, ring);
+    exchange(fields);
+  }
+  if (fields.phases[planes_of_[0]].face_states.stride == 0) return;
+  const auto lend = [&](std::int32_t cell) {
+    for (int k = 0; k < fields.n_phases(); ++k)
+      if (borrows(fields, k, cell)) lend_to_faces(fields, k, cell);
+  };
+  for (const std::int32_t cell : frontier_) lend(cell);
+  for (const std::int32_t cell : following_)
+    if (cell < mesh_.n_owned) lend(cell);
+  for (std::int32_t cell = mesh_.n_owned; cell < mesh_.n_cells(); ++cell)
+    if (knows_plane(cell)) lend(cell);
+}
+
+/// The planes move with the contact of the phases that they divide.
+void SharpInterface::find_speeds(Fields& fields) {
+  const int n = fields.n_phases();
+  for (int lm = 0; lm < n * n; ++lm) contacts_[lm].clear(), speed_users_[lm].clear();
+  std::vector<std::int32_t> cells = cut_cells_;
+  cells.insert(cells.end(), mixed_cells_.begin(), mixed_cells_.end());
+  for (const int k : planes_of_)
+    for (const std::int32_t cell : cells) {
+      if (!is_cut(fields, k, cell)) continue;
+      int other = -1;
+      for (int m = 0; m < n; ++m)
+        if (m != k && (other < 0 || fields.phases[m].alpha[cell] > fields.phases[other].alpha[cell])) other = m;
+      contacts_[k * n + other].push(cell, cell, cell, 0, cells_[k][cell].plane.n);
+      speed_users_[k * n + other].emplace_back(cell, k);
+    }
+  run_speeds(fields);
+}
+
+void SharpInterface::run_speeds(Fields& fields) {
+  const int n = fields.n_phases();
+  for (int l = 0; l < n; ++l)
+    for (int m = 0; m < n; ++m) {
+      ContactList& list = contacts_[l * n + m];
+      const std::int32_t count = l == m ? 0 : list.cell.size();
+      if (count == 0) continue;
+      list.fill();
+      if (fields.phases[m].is_void)
+        kernels_[l].free_surface_speed(fields.phases[l], fields.phases[m].void_pressure, list, count);
+      else
+        pairs_[l * n + m].contact_speed(fields.phases[l], fields.phases[m], list, count);
+      for (std::int32_t i = 0; i < count; ++i) {
+        const auto [cell, k] = speed_users_[l * n + m][i];
+        cells_[k][cell].speed = list.speed[i];
+      }
+    }
+}
+
+/// A cell that is not cut takes over a plane; at the beginning of the step it may at most touch the cell.
+void SharpInterface::adopt(Fields& fields, int k, std::int32_t cell, std::int32_t from, const CutPlane& plane,
+                           double speed, int ring) {
+  Cell& c = cells_[k][cell];
+  for (int phase = 0; phase < fields.n_phases(); ++phase)
+    if (borrows(fields, phase, cell) && followed_[phase][cell] != step_) borrow(fields, phase, cell, from);
+  c = {plane, {}, speed, 1, ring, step_};
+  if (corners_at_[cell] < 0) {
+    corners_at_[cell] = static_cast<std::int32_t>(corners_.size());
+    corners_.push_back(corners_of(mesh_, cell));
+  }
+  const CellCorners& corners = corners_[corners_at_[cell]];
+  const double bound = place_plane(corners, plane.n, fields.phases[k].alpha[cell]);
+  c.plane.d = fields.phases[k].alpha[cell] > 0 ? std::max(c.plane.d, bound) : std::min(c.plane.d, bound);
+}
+
+/// Cells that are not cut but beside cells of the ring before take the plane that passes nearest to them.
+void SharpInterface::spread(Fields& fields, int ring) {
+  for (const int k : planes_of_) {
+    next_.clear();
+    const auto visit = [&](std::int32_t cell) {
+      if (!valid(k, cell) || cells_[k][cell].ring != ring - 1) return;
+      for_each_face(cell, [&](std::int32_t f, int side) {
+        if (f >= mesh_.first_boundary_face()) return;
+        const std::int32_t other = side == 0 ? mesh_.right[f] : mesh_.left[f];
+        if (other < mesh_.n_owned && !valid(k, other) && !std::ranges::binary_search(mixed_cells_, other))
+          next_.push_back(other);
+      });
+    };
+    if (ring == 2)
+      for (const std::int32_t cell : cut_cells_) visit(cell);
+    else
+      for (const std::int32_t cell : frontier_) visit(cell);
+    for (std::int32_t cell = mesh_.n_owned; cell < mesh_.n_cells(); ++cell) visit(cell);
+    std::ranges::sort(next_);
+    next_.erase(std::unique(next_.begin(), next_.end()), next_.end());
+    for (const std::int32_t cell : next_) {
+      CutPlane best;
+      double speed = 0, nearest = infinity;
+      std::int32_t source = -1;
+      for_each_face(cell, [&](std::int32_t f, int side) {
+        if (f >= mesh_.first_boundary_face()) return;
+        const std::int32_t other = side == 0 ? mesh_.right[f] : mesh_.left[f];
+        if (!valid(k, other) || cells_[k][other].ring != ring - 1) return;
+        const Cell& from = cells_[k][other];
+        const Point delta = (side == 0 ? 1.0 : -1.0) * mesh_.face_delta[f];
+        const double d = from.plane.d + dot(from.plane.n, delta);
+        if (std::fabs(d) < nearest)
+          nearest = std::fabs(d), best = {from.plane.n, d}, speed = from.speed, source = other;
+      });
+      adopt(fields, k, cell, source, best, speed, ring);
+    }
+    if (ring == 2) frontier_.clear();
+    frontier_.insert(frontier_.end(), next_.begin(), next_.end());
+  }
+}
+
+/// Where two pure cells of different phases meet and neither knows a plane, the faces between them are one: at an edge
+/// their mean.
+void SharpInterface::seed(const Faces& faces, Fields& fields) {
+  const int n = fields.n_phases();
+  for (int lm = 0; lm < n * n; ++lm) contacts_[lm].clear(), speed_users_[lm].clear();
+  for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) {
+    const int own = fields.pure[cell];
+    if (own < 0) continue;
+    for (const int k : planes_of_) {
+      if (valid(k, cell)) continue;
+      Point sum{0, 0, 0};
+      std::int32_t widest = -1;
+      double distance = 0, area = 0, largest = 0;
+      for_each_face(cell, [&](std::int32_t f, int side) {
+        if (f >= mesh_.first_boundary_face()) return;
+        const std::int32_t other = side == 0 ? mesh_.right[f] : mesh_.left[f];
+        const int there = fields.pure[other];
+        if (there < 0 || there == own || (own != k && there != k)) return;
+        const double out = (side == 0 ? 1.0 : -1.0) * (own == k ? 1.0 : -1.0);  // outward from phase k
+        const Point normal = out * Point{faces.nx[f], faces.ny[f], faces.nz[f]};
+        sum = sum + faces.area[f] * normal;
+        distance += faces.area[f] * dot(normal, outlines_.center(f, side));
+        area += faces.area[f];
+        if (faces.area[f] > largest) largest = faces.area[f], widest = other;
+      });
+      if (widest < 0 || !(length(sum) > 0)) continue;
+      const Point normal = normalised(sum);
+      adopt(fields, k, cell, widest, {normal, distance / area}, 0, 2);
+      frontier_.push_back(cell);
+      const int m = own == k ? fields.pure[widest] : own;
+      contacts_[k * n + m].push(cell, own == k ? cell : widest, own == k ? widest : cell, 0, normal);
+      speed_users_[k * n + m].emplace_back(cell, k);
+    }
+  }
+  run_speeds(fields);
+}
+
+}  // namespace cobasis
