@@ -182,6 +182,7 @@ void Reconstruction::run(Group& group, Fields& fields, const Faces& faces, const
           kernels_[k].reconstruct[mirrors][stencil_.averages](phase, faces, stencil_, with_slopes_, count, options);
       reconstructed_ += count;
       if (others > 0) kernels_[k].copy_to_faces(phase, faces, without_, others);
+      if (options.rings) kernels_[k].hoop_of_cells(phase, *options.rings, without_, others);
     }
   }
 }
