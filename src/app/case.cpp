@@ -46,7 +46,10 @@ void read_mesh_keys(const CaseTable& top, CaseReading& reading) {
 void read_top_level(const CaseTable& top, CaseReading& reading) {
   Setup& setup = reading.setup;
   setup.title = top.text("title").value_or("");
-  if (const auto scene = top.text("scene")) setup.scene = *scene == "plane" ? Geometry::plane : Geometry::space;
+  if (const auto scene = top.text("scene"))
+    setup.scene = *scene == "plane"          ? Geometry::plane
+                  : *scene == "axisymmetric" ? Geometry::axisymmetric
+                                             : Geometry::space;
   setup.end_time = top.number("end_time").value_or(0);
   setup.cfl = top.number("cfl").value_or(setup.cfl);
   setup.alpha_min = top.number("alpha_min").value_or(setup.alpha_min);
@@ -92,6 +95,11 @@ Setup read_case(const std::string& file, const CaseOverrides& overrides) {
   read_mesh_keys(top, reading);
   read_phases(top, reading);
   read_contacts(top, reading);
+  if (reading.setup.scene == Geometry::axisymmetric && reading.setup.phases.size() > 1 &&
+      reading.setup.scheme.interface == InterfaceTreatment::sharp)
+    reading.mistakes.add(top.where("scene"),
+                         "scene = \"axisymmetric\" with sharp interfaces; allowed: interface = "
+                         "\"diffuse\" or \"compressed\" in [scheme]");
   read_regions(top, reading);
   read_boundaries(top, reading);
   read_output(top, reading);

@@ -1,4 +1,4 @@
-// What a plane or a space scene cannot hold.
+// What a plane, an axisymmetric or a space scene cannot hold.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,7 +11,8 @@ namespace {
 
 class GeometryCheck {
  public:
-  GeometryCheck(const Setup& setup, Geometry geometry) : setup_(setup), plane_(geometry == Geometry::plane) {}
+  GeometryCheck(const Setup& setup, Geometry geometry)
+      : setup_(setup), geometry_(geometry), plane_(geometry != Geometry::space) {}
 
   std::vector<std::string> mistakes() {
     for (const RegionSetup& region : setup_.regions) {
@@ -22,6 +23,11 @@ class GeometryCheck {
     for (const BoundarySetup& boundary : setup_.boundaries) {
       where_ = boundary.where + ": ";
       if (const auto* inflow = std::get_if<Inflow>(&boundary.boundary)) check(inflow->filling);
+      if (std::holds_alternative<AxisOfSymmetry>(boundary.boundary) && geometry_ != Geometry::axisymmetric)
+        add(
+            fmt::format("boundary \"{}\" = \"axis\" in {} scene; allowed: wall, symmetry, transmissive, inflow, "
+                        "periodic, or scene = \"axisymmetric\"",
+                        boundary.group, scene()));
     }
     where_ = setup_.case_file + ": ";
     for (const LineSetup& line : setup_.lines) {
@@ -39,17 +45,20 @@ class GeometryCheck {
       const auto* extent = std::get_if<Extent>(&integral.what);
       const Axis axis = extent ? extent->axis : std::get<Quantile>(integral.what).axis;
       if (plane_ && axis == Axis::z)
-        add(fmt::format("integral \"{}\": axis = \"z\" in a plane scene; allowed: x, y, radial", integral.name));
+        add(fmt::format("integral \"{}\": axis = \"z\" in {} scene; allowed: x, y, radial", integral.name, scene()));
     }
     return mistakes_;
   }
 
  private:
+  std::string scene() const {
+    return fmt::format("{} {}", geometry_ == Geometry::axisymmetric ? "an" : "a", name_of(geometry_));
+  }
   void add(const std::string& text) { mistakes_.push_back(where_ + text); }
 
   void check(const Point& x, const std::string& what) {
     if (plane_ && x.z != 0)
-      add(fmt::format("{} = [{}, {}, {}] in a plane scene; allowed: third number 0 or none", what, x.x, x.y, x.z));
+      add(fmt::format("{} = [{}, {}, {}] in {} scene; allowed: third number 0 or none", what, x.x, x.y, x.z, scene()));
   }
 
   void check(const Everywhere&) {}
@@ -61,16 +70,20 @@ class GeometryCheck {
   }
   void check(const Box& box) {
     if (plane_ && !(box.low.z <= 0 && 0 <= box.high.z))
-      add("box beside the plane z = 0 in a plane scene; allowed: 2 numbers in low and high, or z from below to above "
-          "0");
+      add(
+          fmt::format("box beside the plane z = 0 in {} scene; allowed: 2 numbers in low and high, or z from below to "
+                      "above 0",
+                      scene()));
     if (!plane_ && !(box.low.z < box.high.z))
       add("box of no height in z in a space scene; allowed: 3 numbers in low and high, low < high");
   }
   void check(const Sphere& sphere) { check(sphere.center, "center"); }
   void check(const Cylinder&) {
     if (plane_)
-      add("shape = \"cylinder\" in a plane scene; allowed: everywhere, half_space, box, sphere (a disc), "
-          "physical_group, expression");
+      add(
+          fmt::format("shape = \"cylinder\" in {} scene; allowed: everywhere, half_space, box, sphere (a disc), "
+                      "physical_group, expression",
+                      scene()));
   }
 
   void check(const Filling& filling) {
@@ -79,21 +92,22 @@ class GeometryCheck {
       const PhaseState& state = filling.states[k];
       const Expression& w = state.velocity[2];
       if (!w.is_constant() || w.constant() != 0) {
-        add(fmt::format("velocity of phase \"{}\" has a third component in a plane scene; allowed: 2 components, or 0",
-                        setup_.phases[k].name));
+        add(fmt::format("velocity of phase \"{}\" has a third component in {} scene; allowed: 2 components, or 0",
+                        setup_.phases[k].name, scene()));
       }
       if (!state.cobasis) continue;
       const auto& e = *state.cobasis;
       if (e[2][0] != 0 || e[2][1] != 0 || e[0][2] != 0 || e[1][2] != 0)
         add(
-            fmt::format("cobasis of phase \"{}\" shears out of the plane in a plane scene; allowed: "
+            fmt::format("cobasis of phase \"{}\" shears out of the plane in {} scene; allowed: "
                         "[[a1, a2, 0], [b1, b2, 0], [0, 0, c3]]",
-                        setup_.phases[k].name));
+                        setup_.phases[k].name, scene()));
     }
   }
 
   const Setup& setup_;
-  bool plane_;
+  Geometry geometry_;
+  bool plane_;  ///< of two dimensions
   std::string where_;
   std::vector<std::string> mistakes_;
 };

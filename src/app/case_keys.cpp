@@ -83,9 +83,10 @@ std::vector<KeyTable> top_level() {
         {.key = "mesh_parameters", .kind = KeyKind::table, .fallback = "the .geo's", .meaning = "numbers for a .geo"},
         {.key = "scene",
          .kind = KeyKind::word,
-         .words = {"plane", "space"},
+         .words = {"plane", "axisymmetric", "space"},
          .fallback = "space for a mesh with volume cells, else plane",
-         .meaning = "geometry"},
+         .meaning = "axisymmetric: x is along the axis, y >= 0 the distance from it, stress.zz that of the hoop, "
+                    "totals are the whole body's; no sharp interfaces"},
         {.key = "end_time", .unit = "s", .range = positive, .required = true, .meaning = "the run ends here"},
         {.key = "cfl",
          .unit = "-",
@@ -288,10 +289,11 @@ void add_boundaries_and_output(std::vector<KeyTable>& tables) {
        "",
        {{.key = "GROUP",
          .kind = KeyKind::word_or_table,
-         .words = {"wall", "symmetry", "transmissive", "inflow", "periodic"},
+         .words = {"wall", "symmetry", "axis", "transmissive", "inflow", "periodic"},
          .meaning = "of a physical group, or of \"*\", every group not named; a word or { type = word, ... }"}}});
   tables.push_back({"[boundary] type = wall", "slip wall", {}});
   tables.push_back({"[boundary] type = symmetry", "mirror", {}});
+  tables.push_back({"[boundary] type = axis", "y = 0 of an axisymmetric scene, and nothing else", {}});
   tables.push_back({"[boundary] type = transmissive", "zero gradient", {}});
   tables.push_back({"[boundary] type = inflow", "besides, the keys of a filling", {}});
   tables.push_back({"[boundary] type = periodic",

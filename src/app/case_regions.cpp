@@ -83,6 +83,7 @@ std::optional<Boundary> read_boundary(const TomlEntry& entry, CaseReading& readi
   if (!known) return std::nullopt;
   if (*known == "wall") return Wall{};
   if (*known == "symmetry") return Symmetry{};
+  if (*known == "axis") return AxisOfSymmetry{};
   if (*known == "transmissive") return Transmissive{};
   if (*known == "periodic") {
     const auto with = table.text("with");

@@ -46,7 +46,7 @@ double coordinate(const Point& x, Axis axis, Geometry geometry) {
     case Axis::radial:
       break;
   }
-  return geometry == Geometry::plane ? std::abs(x.y) : std::sqrt(x.x * x.x + x.y * x.y);
+  return geometry != Geometry::space ? std::abs(x.y) : std::sqrt(x.x * x.x + x.y * x.y);
 }
 
 Integrals::Integrals(std::vector<IntegralSetup> setups, Geometry geometry, const Mesh& mesh, const Mpi& mpi,
@@ -133,11 +133,15 @@ double Integrals::evaluate(const Extent& extent, const std::vector<double>& alph
 }
 
 /// A cell's volume is spread evenly over the cell's range of the coordinate, so that the volume below a coordinate is
-/// continuous and a body's edge is where its outermost cells end. The quantile is found by the Illinois method.
+/// continuous and a body's edge is where its outermost cells end; a ring's over its range of r^2. The quantile is found
+/// by the Illinois method.
 double Integrals::evaluate(const Quantile& quantile, const std::vector<double>& alpha) const {
   struct Range {
     double low, high, volume;
   };
+  const bool across_rings = mesh_.axisymmetric && quantile.axis != Axis::x;
+  const auto evenly = [&](double x) { return across_rings ? x * x : x; };
+  const auto back = [&](double x) { return across_rings ? std::sqrt(x) : x; };
   std::vector<Range> ranges;
   std::vector<double> volumes;
   double low = infinity, high = -infinity;
@@ -145,7 +149,7 @@ double Integrals::evaluate(const Quantile& quantile, const std::vector<double>& 
     if (!(alpha[i] > 0)) continue;
     Range range{infinity, -infinity, alpha[i] * mesh_.volume[i]};
     for (std::int32_t n = mesh_.cell_node_begin[i]; n < mesh_.cell_node_begin[i + 1]; ++n) {
-      const double x = coordinate(mesh_.nodes[mesh_.cell_nodes[n]], quantile.axis, geometry_);
+      const double x = evenly(coordinate(mesh_.nodes[mesh_.cell_nodes[n]], quantile.axis, geometry_));
       range.low = std::min(range.low, x);
       range.high = std::max(range.high, x);
     }
@@ -173,7 +177,7 @@ double Integrals::evaluate(const Quantile& quantile, const std::vector<double>& 
   for (int i = 0; i < 100 && high - low > tolerance; ++i) {
     const double x = low - below * (high - low) / (above - below);
     const double excess = excess_below(x);
-    if (std::abs(excess) < 1e-14) return x;
+    if (std::abs(excess) < 1e-14) return back(x);
     if (excess > 0) {
       high = x;
       above = excess;
@@ -186,7 +190,7 @@ double Integrals::evaluate(const Quantile& quantile, const std::vector<double>& 
       repeated = -1;
     }
   }
-  return 0.5 * (low + high);
+  return back(0.5 * (low + high));
 }
 
 double Integrals::evaluate(const Mean& mean, const Region& region, const Snapshot& snapshot) const {

@@ -18,7 +18,7 @@ constexpr double round_off = 1e-9;  ///< of a cell's size: room for coordinates 
 double norm(const Point& a) { return std::sqrt(dot(a, a)); }
 
 double size_of(const Mesh& mesh, std::int32_t cell) {
-  return mesh.dimension == 2 ? std::sqrt(mesh.volume[cell]) : std::cbrt(mesh.volume[cell]);
+  return mesh.dimension == 2 ? std::sqrt(mesh.measure(cell)) : std::cbrt(mesh.volume[cell]);
 }
 
 /// The face's centroid as the cell at its right sees it: elsewhere if the face joins periodic images.

@@ -63,9 +63,8 @@ double mass_error(const std::vector<Column>& before, const std::vector<Column>& 
 }
 
 std::string describe(const Scene& scene, const Solver& solver) {
-  std::string text =
-      fmt::format("{}\n{} scene, {} cells, {} equations per cell\n", scene.setup.title,
-                  scene.geometry == Geometry::plane ? "plane" : "space", scene.mesh.n_global, solver.equations());
+  std::string text = fmt::format("{}\n{} scene, {} cells, {} equations per cell\n", scene.setup.title,
+                                 name_of(scene.geometry), scene.mesh.n_global, solver.equations());
   const Scheme& scheme = scene.setup.scheme;
   const bool interfaces = solver.fields().multiphase();
   text += fmt::format("  scheme: order {}{}{}, low_mach {}\n", scheme.order,
@@ -114,11 +113,12 @@ Scene open_scene(const Setup& setup, bool trust_geo, int splits, const Mpi& mpi)
   request.parameters = setup.mesh_parameters;
   request.trust_geo = trust_geo;
   request.splits = splits;
-  request.dimension = !setup.scene ? 0 : *setup.scene == Geometry::plane ? 2 : 3;
+  request.dimension = !setup.scene ? 0 : *setup.scene == Geometry::space ? 3 : 2;
+  request.axisymmetric = setup.scene == Geometry::axisymmetric;
   request.periodic = periodic_pairs(setup);
   request.cell_weight = [&setup](const Point& x, const std::string& region) { return cell_cost(setup, x, region); };
   scene.mesh = read_mesh(request, mpi);
-  scene.geometry = scene.mesh.dimension == 2 ? Geometry::plane : Geometry::space;
+  scene.geometry = geometry_of(scene.mesh);
   check_for_geometry(setup, scene.geometry);
   scene.seconds = timer.seconds();
   return scene;

@@ -44,6 +44,7 @@ Mesh PartCutter::cut(int part) {
 
   Mesh& mesh = draft.mesh;
   mesh.dimension = whole_.raw.dimension;
+  mesh.axisymmetric = whole_.axisymmetric;
   mesh.n_global = whole_.n_cells();
   mesh.n_owned = static_cast<std::int32_t>(owned.size());
   mesh.global_id.assign(owned.begin(), owned.end());
@@ -68,6 +69,10 @@ void PartCutter::add_cells(Draft& draft) const {
     const auto cell = static_cast<std::int32_t>(id);
     mesh.volume.push_back(whole_.volume[cell]);
     mesh.centroid.push_back(whole_.centroid[cell]);
+    if (mesh.axisymmetric) {
+      mesh.section.push_back(whole_.section[cell]);
+      mesh.section_centroid.push_back(whole_.section_centroid[cell]);
+    }
     mesh.cell_type.push_back(whole_.raw.cell_type[cell]);
     mesh.cell_region.push_back(whole_.raw.cell_region[cell]);
     const auto nodes = whole_.nodes_of(cell);
@@ -107,7 +112,7 @@ void PartCutter::add_faces(Draft& draft) const {
     mesh.left.push_back(local_[face.left]);
     mesh.right.push_back(face.right < 0 ? mesh.ghost_of(i) : local_[face.right]);
     const FaceFrame frame = face_frame(whole_.face_area[f]);
-    mesh.area.push_back(length(whole_.face_area[f]));
+    mesh.area.push_back(length(whole_.face_area[f]) * (mesh.axisymmetric ? whole_.face_circumference[f] : 1.0));
     mesh.nx.push_back(frame.n.x);
     mesh.ny.push_back(frame.n.y);
     mesh.nz.push_back(frame.n.z);
@@ -166,10 +171,13 @@ void for_each_part(M& mesh, Visit& visit) {
                        &mesh.n_boundary_faces, &mesh.cell_stride})
     visit(*number);
   visit(mesh.dimension);
+  visit(mesh.axisymmetric);
   visit(mesh.max_cell_faces);
   visit(mesh.n_global);
   visit(mesh.volume);
   visit(mesh.centroid);
+  visit(mesh.section);
+  visit(mesh.section_centroid);
   visit(mesh.global_id);
   visit(mesh.cell_type);
   visit(mesh.cell_region);

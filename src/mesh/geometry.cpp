@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "mesh/cell_shape.hpp"
 
@@ -75,6 +76,24 @@ CellGeometry cell_geometry(CellType type, std::span<const Point> corners) {
   }
   sum.centroid = corners[0] + 1.0 / sum.volume * sum.centroid;
   return sum;
+}
+
+RingGeometry ring_of_face(std::span<const Point> corners) {
+  const Point middle = 0.5 * (corners[0] + corners[1]), along = corners[1] - corners[0];
+  if (middle.y == 0) return {0, middle};
+  return {2 * std::numbers::pi * middle.y, middle + along.y / (12 * middle.y) * along};
+}
+
+RingGeometry ring_of_cell(const CellGeometry& section, std::span<const Point> corners) {
+  double xy = 0, yy = 0;  // second moments about the centroid
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point a = corners[i] - section.centroid, b = corners[(i + 1) % corners.size()] - section.centroid;
+    const double part = 0.5 * (a.x * b.y - a.y * b.x) / 12;
+    xy += part * (a.x * a.y + b.x * b.y + (a.x + b.x) * (a.y + b.y));
+    yy += part * (a.y * a.y + b.y * b.y + (a.y + b.y) * (a.y + b.y));
+  }
+  const double radius = section.centroid.y, scale = 1 / (section.volume * radius);
+  return {2 * std::numbers::pi * radius, section.centroid + scale * Point{xy, yy, 0}};
 }
 
 FaceFrame face_frame(const Point& area) {

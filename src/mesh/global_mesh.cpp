@@ -45,6 +45,20 @@ void flatten(RawMesh& raw) {
   }
 }
 
+/// The upper half of a meridian plane; nodes on the axis are put exactly there.
+void put_on_axis(RawMesh& raw) {
+  double extent = 0;
+  for (const Point& p : raw.nodes) extent = std::max({extent, std::abs(p.x), std::abs(p.y)});
+  for (Point& p : raw.nodes) {
+    if (p.y < -1e-10 * extent)
+      throw InputError(
+          fmt::format("the mesh of an axisymmetric scene lies at y >= 0, the distance from the axis, but a "
+                      "node is at ({:.6g}, {:.6g})",
+                      p.x, p.y));
+    if (p.y < 1e-10 * extent) p.y = 0;
+  }
+}
+
 /// Volume and centroid of every cell; turns plane cells counter-clockwise.
 void measure(RawMesh& raw, std::vector<double>& volume, std::vector<Point>& centroid) {
   volume.clear();
@@ -106,6 +120,34 @@ void measure_faces(GlobalMesh& mesh) {
   }
 }
 
+void check_shifts(const GlobalMesh& mesh, const std::vector<std::pair<std::string, std::string>>& periodic) {
+  for (std::size_t i = 0; i < mesh.shifts.size(); ++i)
+    if (std::abs(mesh.shifts[i].y) > 1e-10 * std::abs(mesh.shifts[i].x))
+      throw InputError(
+          fmt::format("periodic groups '{}' and '{}' lie at different distances from the axis; allowed in "
+                      "an axisymmetric scene: a translation along x",
+                      periodic[i].first, periodic[i].second));
+}
+
+/// From plane cells and faces to the rings that they sweep.
+void turn_about_axis(GlobalMesh& mesh) {
+  mesh.section = mesh.volume;
+  mesh.section_centroid = mesh.centroid;
+  for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell) {
+    const RingGeometry ring = ring_of_cell({mesh.volume[cell], mesh.centroid[cell]}, corners_of(mesh.raw, cell));
+    mesh.volume[cell] *= ring.circumference;
+    mesh.centroid[cell] = ring.centroid;
+  }
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    std::array<std::int32_t, 4> nodes{};
+    face_nodes(mesh.raw, mesh.faces[f].left, mesh.faces[f].left_local, nodes.data());
+    const std::array<Point, 2> ends{mesh.raw.nodes[nodes[0]], mesh.raw.nodes[nodes[1]]};
+    const RingGeometry ring = ring_of_face(ends);
+    mesh.face_circumference.push_back(ring.circumference);
+    mesh.face_centroid[f] = ring.centroid;
+  }
+}
+
 void list_faces_of_cells(GlobalMesh& mesh) {
   mesh.cell_face_begin.assign(1, 0);
   for (const CellType type : mesh.raw.cell_type)
@@ -136,9 +178,12 @@ Point GlobalMesh::delta(std::int64_t face) const {
   return link.image > 0 ? direct + shifts[link.image - 1] : direct - shifts[-link.image - 1];
 }
 
-GlobalMesh build_global_mesh(RawMesh raw, const std::vector<std::pair<std::string, std::string>>& periodic) {
+GlobalMesh build_global_mesh(RawMesh raw, const std::vector<std::pair<std::string, std::string>>& periodic,
+                             bool axisymmetric) {
   GlobalMesh mesh;
+  mesh.axisymmetric = axisymmetric;
   if (raw.dimension == 2) flatten(raw);
+  if (axisymmetric) put_on_axis(raw);
   measure(raw, mesh.volume, mesh.centroid);
   mesh.raw = renumber(raw, morton_order(mesh.centroid, raw.dimension));
   raw = {};
@@ -149,8 +194,13 @@ GlobalMesh build_global_mesh(RawMesh raw, const std::vector<std::pair<std::strin
   mesh.faces = std::move(joined.faces);
   mesh.shifts = std::move(joined.shifts);
   settle(mesh);
+  if (axisymmetric) {
+    check_shifts(mesh, periodic);
+    put_on_axis(mesh.raw);
+  }
   measure(mesh.raw, mesh.volume, mesh.centroid);  // in the new order, periodic nodes moved
   measure_faces(mesh);
+  if (axisymmetric) turn_about_axis(mesh);
   list_faces_of_cells(mesh);
   return mesh;
 }
@@ -158,7 +208,7 @@ GlobalMesh build_global_mesh(RawMesh raw, const std::vector<std::pair<std::strin
 GlobalMesh read_global_mesh(const MeshRequest& request) {
   RawMesh raw = read_gmsh(request);
   try {
-    return build_global_mesh(std::move(raw), request.periodic);
+    return build_global_mesh(std::move(raw), request.periodic, request.axisymmetric);
   } catch (const InputError& error) {
     throw InputError(request.file + ": " + error.what());
   }

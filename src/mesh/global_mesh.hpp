@@ -23,12 +23,16 @@ struct FaceLink {
 
 struct GlobalMesh {
   RawMesh raw;  ///< cells in the order of their global ids, nodes in the order of theirs
+  bool axisymmetric = false;
   std::vector<double> volume;
   std::vector<Point> centroid;
+  std::vector<double> section;          ///< axisymmetric, see Mesh; else empty
+  std::vector<Point> section_centroid;  ///< likewise
 
   std::vector<FaceLink> faces;  ///< first those of two cells, by (left, right), then the boundary's, by (group, left)
   std::int64_t n_inner_faces = 0;
-  std::vector<Point> face_area;               ///< area vectors, from left to right
+  std::vector<Point> face_area;               ///< area vectors, from left to right; axisymmetric: of the section
+  std::vector<double> face_circumference;     ///< axisymmetric: their length times this is the area of the ring
   std::vector<Point> face_centroid;           ///< as seen from the left cell
   std::vector<std::int64_t> cell_face_begin;  ///< CSR: faces of a cell in its own order
   std::vector<std::int64_t> cell_faces;       ///< 2 face + side
@@ -42,7 +46,8 @@ struct GlobalMesh {
 };
 
 /// Checks, numbers and connects. Throws InputError.
-GlobalMesh build_global_mesh(RawMesh raw, const std::vector<std::pair<std::string, std::string>>& periodic);
+GlobalMesh build_global_mesh(RawMesh raw, const std::vector<std::pair<std::string, std::string>>& periodic,
+                             bool axisymmetric = false);
 
 /// Reads request.file through Gmsh and builds. Throws InputError naming the file.
 GlobalMesh read_global_mesh(const MeshRequest& request);

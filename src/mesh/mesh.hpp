@@ -35,6 +35,9 @@ struct Neighbour {
 /// it).
 struct Mesh {
   int dimension = 0;  ///< 2 (in z = 0, unit depth) or 3
+  /// Axisymmetric: cells and faces of a two-dimensional mesh are sections of the rings that they sweep around the x
+  /// axis. Volumes, areas and centroids are those of the rings; dimension is 2.
+  bool axisymmetric = false;
 
   // cells: owned and halo, unless said otherwise
   std::int32_t n_owned = 0;
@@ -43,6 +46,8 @@ struct Mesh {
   std::int64_t n_global = 0;   ///< cells of all ranks
   std::vector<double> volume;  ///< [m^3], [m^2] in a plane
   std::vector<Point> centroid;
+  std::vector<double> section;          ///< axisymmetric: area of the ring's section [m^2], else empty
+  std::vector<Point> section_centroid;  ///< and its centroid, nearer to the axis than the ring's
   std::vector<std::int64_t> global_id;  ///< 0 … n_global-1, independent of the partition
   std::vector<CellType> cell_type;
   std::vector<std::int32_t> cell_region;      ///< index into region_names, -1: none
@@ -57,7 +62,7 @@ struct Mesh {
   std::int32_t n_halo_faces = 0;
   std::int32_t n_boundary_faces = 0;
   std::vector<std::int32_t> left, right;  ///< cells; right of a boundary face is its ghost
-  std::vector<double> area;               ///< [m^2], [m] in a plane
+  std::vector<double> area;               ///< [m^2], [m] in a plane; 0 on the axis
   std::vector<double> nx, ny, nz;         ///< unit normal, from left to right
   std::vector<double> tx, ty, tz;         ///< first unit tangent t1; t2 = n x t1. In a plane t1 = (-ny, nx, 0)
   std::vector<Point> face_centroid;       ///< as seen from the left cell
@@ -77,6 +82,8 @@ struct Mesh {
 
   std::vector<std::string> notices;  ///< what the user should know about the file, a line each; on rank 0 only
 
+  /// [m^2] in a plane and in a meridian plane, [m^3] in space: what the size of a cell is a root of.
+  double measure(std::int32_t cell) const { return axisymmetric ? section[cell] : volume[cell]; }
   std::int32_t n_cells() const { return n_owned + n_halo; }
   std::int32_t n_all() const { return n_owned + n_halo + n_ghosts; }
   std::int32_t n_faces() const { return n_interior_faces + n_halo_faces + n_boundary_faces; }

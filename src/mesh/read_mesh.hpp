@@ -13,11 +13,12 @@
 namespace cobasis {
 
 struct MeshRequest {
-  std::string file;                                           ///< .msh (2.2, 4.1; ASCII, binary) or .geo
-  std::map<std::string, double> parameters;                   ///< DefineConstant numbers of a .geo
-  bool trust_geo = false;                                     ///< let a .geo run commands and read other files
-  int splits = 0;                                             ///< times every cell is cut into 4 (plane) or 8 (space)
-  int dimension = 0;                                          ///< 2, 3, or 0: 3 if the mesh has volume cells, else 2
+  std::string file;                          ///< .msh (2.2, 4.1; ASCII, binary) or .geo
+  std::map<std::string, double> parameters;  ///< DefineConstant numbers of a .geo
+  bool trust_geo = false;                    ///< let a .geo run commands and read other files
+  int splits = 0;                            ///< times every cell is cut into 4 (plane) or 8 (space)
+  int dimension = 0;                         ///< 2, 3, or 0: 3 if the mesh has volume cells, else 2
+  bool axisymmetric = false;  ///< a two-dimensional mesh is the upper half of a meridian plane, x the axis
   std::vector<std::pair<std::string, std::string>> periodic;  ///< pairs of boundary groups, matched by translation
   /// Cost of a cell for the partition, >= 1, by its centroid and physical group ("": none). Empty: all alike.
   std::function<int(const Point& centroid, const std::string& region)> cell_weight;

@@ -92,4 +92,36 @@ typename Primitives<G, K>::template State<Real> rates_of_change(
   return rate;
 }
 
+/// What an axisymmetric scene adds to the rates of a plane one: y is the distance r from the axis, and e^3, the hoop's
+/// component R / r, is stretched by u_r / r.
+template <Kind K, class Real>
+void add_hoop_rates(const HyperelasticMaterial& material, const typename Primitives<Plane, K>::template State<Real>& w,
+                    const Real& ch2, const Real& inverse_radius,
+                    typename Primitives<Plane, K>::template State<Real>& rate) {
+  using P = Primitives<Plane, K>;
+  const Real stretching = w[P::u + 1] * inverse_radius;
+  rate[P::rho] = rate[P::rho] - w[P::rho] * stretching;
+  rate[P::p] = rate[P::p] - w[P::rho] * ch2 * stretching;
+  if constexpr (K == Kind::solid) {
+    const Symmetric<Plane, Real> g = normalised_metric(make_cobasis<Plane>([&](int c) { return w[P::e + c]; }));
+    const Symmetric<Plane, Real> S = deviatoric_stress<Plane, Real>(material, w[P::rho], g);
+    const Real lever = inverse_radius / w[P::rho];
+    rate[P::u] = rate[P::u] + lever * S.xy;
+    rate[P::u + 1] = rate[P::u + 1] + lever * (S.yy - S.zz);
+    rate[P::e + 4] = rate[P::e + 4] - stretching * w[P::e + 4];
+  }
+}
+
+/// -sigma_zz [Pa], what presses along the hoop of an axisymmetric scene.
+template <Kind K, class Real>
+Real hoop_pressure(const HyperelasticMaterial& material, const typename Primitives<Plane, K>::template State<Real>& w) {
+  using P = Primitives<Plane, K>;
+  if constexpr (K == Kind::fluid) {
+    return w[P::p];
+  } else {
+    const Symmetric<Plane, Real> g = normalised_metric(make_cobasis<Plane>([&](int c) { return w[P::e + c]; }));
+    return w[P::p] - deviatoric_stress<Plane, Real>(material, w[P::rho], g).zz;
+  }
+}
+
 }  // namespace cobasis

@@ -38,4 +38,31 @@ std::vector<Boundary> resolve_boundaries(const Setup& setup, const Mesh& mesh) {
   return result;
 }
 
+void check_axis(const Setup& setup, const Mesh& mesh, const std::vector<Boundary>& boundaries, const Mpi& mpi) {
+  if (!mesh.axisymmetric) return;
+  std::string mistakes;
+  for (std::size_t i = 0; i < boundaries.size(); ++i) {
+    const BoundaryGroup& group = mesh.boundary_groups[i];
+    bool on_axis = false, off_axis = false;
+    for (std::int32_t face = group.first; face < group.last; ++face) (mesh.area[face] == 0 ? on_axis : off_axis) = true;
+    on_axis = mpi.any(on_axis), off_axis = mpi.any(off_axis);
+    const bool is_axis = std::holds_alternative<AxisOfSymmetry>(boundaries[i]);
+    if (is_axis ? !off_axis : !on_axis) continue;
+    std::string where = setup.case_file;
+    for (const BoundarySetup& boundary : setup.boundaries)
+      if (boundary.group == group.name || (boundary.group == "*" && where == setup.case_file)) where = boundary.where;
+    if (is_axis)
+      mistakes += fmt::format(
+          "{}: boundary '{}' = \"axis\", but it has faces off the axis y = 0; allowed: \"axis\" for "
+          "groups on it, another condition for the others\n",
+          where, group.name);
+    else
+      mistakes += fmt::format(
+          "{}: boundary '{}' has faces on the axis y = 0; allowed: a group of its own for them, with "
+          "the condition \"axis\"\n",
+          where, group.name);
+  }
+  if (!mistakes.empty()) throw InputError(mistakes.substr(0, mistakes.size() - 1));
+}
+
 }  // namespace cobasis

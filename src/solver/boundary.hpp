@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "mesh/mpi.hpp"
 #include "solver/setup.hpp"
 
 namespace cobasis {
@@ -11,5 +12,15 @@ namespace cobasis {
 /// The boundary of each of the mesh's groups, in its order. Throws InputError (file:line) if the case names a group
 /// that the mesh lacks, or the mesh has one that the case neither names nor covers with "*".
 std::vector<Boundary> resolve_boundaries(const Setup& setup, const Mesh& mesh);
+
+/// The axis is where an axisymmetric mesh touches y = 0, and only there. Throws InputError, on all ranks together, if a
+/// group's faces say otherwise. Collective.
+void check_axis(const Setup& setup, const Mesh& mesh, const std::vector<Boundary>& boundaries, const Mpi& mpi);
+
+/// Whether the state beyond is the mirror image of the cell's own.
+inline bool is_mirror_image(const Boundary& boundary) {
+  return std::holds_alternative<Wall>(boundary) || std::holds_alternative<Symmetry>(boundary) ||
+         std::holds_alternative<AxisOfSymmetry>(boundary);
+}
 
 }  // namespace cobasis

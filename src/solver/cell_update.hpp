@@ -4,6 +4,7 @@
 #pragma once
 
 #include "solver/face_sweep.hpp"
+#include "solver/hoop.hpp"
 
 namespace cobasis {
 
@@ -78,10 +79,10 @@ COBASIS_KERNEL double largest_step(const Faces& faces, const AlignedVector<doubl
 /// Advances a phase in the listed owned cells by dt. Mixed: the volume fraction changes too, and contacts do work.
 ///
 /// Cobasis: alpha de = -dt/V sum A {u (e_f - e) + n (e·(u* - u_cell))}, outward n. `centring` = 1/2 takes e on the
-/// right-hand side at mid-step, 0 at its beginning.
+/// right-hand side at mid-step, 0 at its beginning. `rings`: of axisymmetric scenes, else null.
 template <class G, Kind K, class Real, bool Mixed>
-COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volume, Phase& phase, const CellList& cells,
-                           std::int32_t n, double dt, double centring) {
+COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volume, const Rings* rings, Phase& phase,
+                           const CellList& cells, std::int32_t n, double dt, double centring) {
   using L = Layout<G, K>;
   constexpr int D = G::dimension;
   const std::int32_t first_mixed = first_mixed_slot(faces);
@@ -134,6 +135,13 @@ COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volu
           change[L::cobasis + c] = change[L::cobasis + c] - gain(L::gain_cobasis + c);
       }
     }
+    Real hoop_stretching(0.0);
+    if constexpr (D == 2) {
+      if (rings) {
+        const Real share = Mixed ? gather<Real>(phase.alpha.data(), at) : Real(1.0);
+        hoop_stretching = add_hoop<K>(phase, *rings, at, share, change, deformation, u);
+      }
+    }
     const Real rate = dt / gather<Real>(volume.data(), at);
     Real cobasis_rate = rate;
     if constexpr (Mixed) {
@@ -161,6 +169,7 @@ COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volu
             for (int b = 0; b < D; ++b)
               change[L::cobasis + beta * D + d] =
                   change[L::cobasis + beta * D + d] + deformation[d][b] * of[beta * D + b];
+        if constexpr (D == 2) change[L::cobasis + 4] = change[L::cobasis + 4] - hoop_stretching * of[4];
       };
       deform(e);
       // the change of e is linear in e: at mid-step e is e + centring * (the change from the beginning)

@@ -71,6 +71,18 @@ std::vector<Simplex<3>> simplices<3>(CellType type, const std::vector<Point>& co
 
 // --- measures of the part of a simplex inside a shape ---
 
+/// What volume a simplex stands for: its own, or that of the ring it sweeps around the x axis over 2 pi.
+template <int D>
+struct Volume {
+  bool of_rings = false;
+  double at(const Point& x) const { return of_rings ? x.y : 1; }
+  double operator()(const Simplex<D>& s) const {
+    if constexpr (D == 2)
+      if (of_rings) return measure(s) * (s[0].y + s[1].y + s[2].y) / 3;
+    return measure(s);
+  }
+};
+
 /// The integral of f over a straight cut, exact for quadratic f (Simpson; edge midpoints of triangles).
 template <class Function>
 double integral_over_cut(const std::vector<Point>& corners, const Function& f) {
@@ -90,26 +102,28 @@ double integral_over_cut(const std::vector<Point>& corners, const Function& f) {
 /// Cut by the linear interpolant, then moved by the distance that remains between that cut and the surface: an error of
 /// fourth order in size / radius, 2e-7 of the body's volume at the largest size that is not bisected.
 template <int D>
-double measure_inside(const Simplex<D>& s, const Round& round) {
-  const double size = longest_edge<D>(s), whole = measure(s);
+double measure_inside(const Simplex<D>& s, const Round& round, const Volume<D>& volume) {
+  const double size = longest_edge<D>(s), whole = volume(s);
   if (const double d = round(s[0]); std::abs(d) > size) return d > 0 ? whole : 0;
   if (size > 0.08 * round.radius) {
     const auto [first, second] = bisect_longest_edge<D>(s);
-    return measure_inside<D>(first, round) + measure_inside<D>(second, round);
+    return measure_inside<D>(first, round, volume) + measure_inside<D>(second, round, volume);
   }
   const Cut<D> cut = cut_linear<D>(s, round);
   double inside = 0;
-  for (const Simplex<D>& part : cut.inside) inside += measure(part);
+  for (const Simplex<D>& part : cut.inside) inside += volume(part);
   if (cut.surface.empty()) return inside;
-  return inside + std::copysign(integral_over_cut(cut.surface, round), whole);
+  const double rest = integral_over_cut(cut.surface, [&](const Point& x) { return round(x) * volume.at(x); });
+  return inside + std::copysign(rest, whole);
 }
 
 template <int D>
-double measure_inside(const Simplex<D>& s, const Inside& shape, int bisections) {
+double measure_inside(const Simplex<D>& s, const Inside& shape, int bisections, const Volume<D>& volume) {
   const auto inside = [&](const Point& x) { return shape.condition(x) != 0; };
   if (bisections > 0) {
     const auto [first, second] = bisect_longest_edge<D>(s);
-    return measure_inside<D>(first, shape, bisections - 1) + measure_inside<D>(second, shape, bisections - 1);
+    return measure_inside<D>(first, shape, bisections - 1, volume) +
+           measure_inside<D>(second, shape, bisections - 1, volume);
   }
   std::array<bool, D + 1> is_inside{};
   for (int i = 0; i <= D; ++i) is_inside[i] = inside(s[i]);
@@ -122,7 +136,7 @@ double measure_inside(const Simplex<D>& s, const Inside& shape, int bisections) 
     return 0.5 * (in + out);
   };
   double sum = 0;
-  for (const Simplex<D>& part : cut_simplex<D>(s, is_inside, crossing).inside) sum += measure(part);
+  for (const Simplex<D>& part : cut_simplex<D>(s, is_inside, crossing).inside) sum += volume(part);
   return sum;
 }
 
@@ -180,10 +194,11 @@ Ball bounding_ball(const std::vector<Point>& corners) {
 }
 
 template <int D>
-double fraction(const std::vector<Simplex<D>>& cell, const std::function<double(const Simplex<D>&)>& measure_of_part) {
+double fraction(const std::vector<Simplex<D>>& cell, const Volume<D>& volume,
+                const std::function<double(const Simplex<D>&)>& measure_of_part) {
   double whole = 0, part = 0;
   for (const Simplex<D>& s : cell) {
-    whole += measure(s);
+    whole += volume(s);
     part += measure_of_part(s);
   }
   const double f = part / whole;
@@ -192,7 +207,7 @@ double fraction(const std::vector<Simplex<D>>& cell, const std::function<double(
 }
 
 template <int D>
-double fraction_in_body(const Body& body, CellType type, const std::vector<Point>& corners) {
+double fraction_in_body(const Body& body, CellType type, const std::vector<Point>& corners, const Volume<D>& volume) {
   const Ball ball = bounding_ball(corners);
   bool whole = true;
   const auto test = [&](double distance) {
@@ -205,17 +220,19 @@ double fraction_in_body(const Body& body, CellType type, const std::vector<Point
   if (body.round && test((*body.round)(ball.center))) return 0;
   if (whole) return 1;
 
-  return fraction<D>(simplices<D>(type, corners), [&](const Simplex<D>& s) {
+  return fraction<D>(simplices<D>(type, corners), volume, [&](const Simplex<D>& s) {
     std::vector<Simplex<D>> parts{s};
     for (const Plane& plane : body.planes) parts = clip<D>(parts, plane);
     double sum = 0;
-    for (const Simplex<D>& part : parts) sum += body.round ? measure_inside<D>(part, *body.round) : measure(part);
+    for (const Simplex<D>& part : parts)
+      sum += body.round ? measure_inside<D>(part, *body.round, volume) : volume(part);
     return sum;
   });
 }
 
 template <int D>
-double fraction_in_condition(const Inside& shape, CellType type, const std::vector<Point>& corners) {
+double fraction_in_condition(const Inside& shape, CellType type, const std::vector<Point>& corners,
+                             const Volume<D>& volume) {
   const bool inside = shape.condition(corners[0]) != 0;
   bool uniform = true;
   for (std::size_t i = 0; uniform && i < corners.size(); ++i) {
@@ -227,8 +244,8 @@ double fraction_in_condition(const Inside& shape, CellType type, const std::vect
 
   // A size of about an eighth of the cell's edge.
   const int bisections = D == 2 ? 6 : type == CellType::tetrahedron ? 9 : 6;
-  return fraction<D>(simplices<D>(type, corners),
-                     [&](const Simplex<D>& s) { return measure_inside<D>(s, shape, bisections); });
+  return fraction<D>(simplices<D>(type, corners), volume,
+                     [&](const Simplex<D>& s) { return measure_inside<D>(s, shape, bisections, volume); });
 }
 
 template <int D>
@@ -238,6 +255,7 @@ double inside_fraction_in(const Shape& shape, const Mesh& mesh, std::int32_t cel
     corners.push_back(mesh.nodes[mesh.cell_nodes[n]]);
   }
   const CellType type = mesh.cell_type[cell];
+  const Volume<D> volume{mesh.axisymmetric};
   return std::visit(
       [&](const auto& s) -> double {
         using S = std::decay_t<decltype(s)>;
@@ -247,9 +265,9 @@ double inside_fraction_in(const Shape& shape, const Mesh& mesh, std::int32_t cel
           const auto region = mesh.cell_region[cell];
           return region >= 0 && mesh.region_names[region] == s.name ? 1 : 0;
         } else if constexpr (std::is_same_v<S, Inside>) {
-          return fraction_in_condition<D>(s, type, corners);
+          return fraction_in_condition<D>(s, type, corners, volume);
         } else {
-          return fraction_in_body<D>(body_of(s, D), type, corners);
+          return fraction_in_body<D>(body_of(s, D), type, corners, volume);
         }
       },
       shape);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -96,6 +97,7 @@ struct Phase {
   FaceStates face_states;  ///< of the second order
   CellNumbers slopes;      ///< of the second order, where gradients are averaged: [quantity and direction][cell]
   AlignedVector<double> slopes_known;  ///< per cell 1 or 0
+  CellNumbers hoop;                    ///< of axisymmetric scenes, see keep_hoop
   CellNumbers inner;                   ///< of sharp interfaces: what contacts inside cells do
   AlignedVector<double> wetted[2];     ///< of sharp interfaces: fraction of each face as seen from its left and its
                                        ///< right cell, where Fields::near says so
@@ -117,17 +119,27 @@ inline double identity_cobasis(int dimension, int c) {
   return dimension == 2 ? (c == 0 || c == 3 || c == 4) : (c == 0 || c == 4 || c == 8);
 }
 
+/// Axisymmetric scenes: cells as rings around the x axis. For the faces of a cell sum A n = section e_r.
+struct Rings {
+  AlignedVector<double> section;         ///< area of the section times 2 pi [m^2]
+  AlignedVector<double> inverse_radius;  ///< of the ring's centroid [1/m]
+  AlignedVector<double> to_section[2];   ///< from the ring's centroid to the section's [m]
+  AlignedVector<double> lever;           ///< radius of the section's centroid over that of the ring's
+};
+
 struct Fields {
   std::vector<Phase> phases;
   int dimension = 2;
   std::int32_t n_owned = 0;
   std::int32_t n_all = 0;        ///< owned, halo, ghosts
   AlignedVector<double> volume;  ///< of owned and halo cells
+  std::optional<Rings> rings;    ///< of owned and halo cells; none unless axisymmetric
   /// Of sharp interfaces: whether an interface is so near to a face that phases share it during the step. Else both its
   /// cells are pure in the same phase.
   AlignedVector<std::int32_t> near;
   AlignedVector<std::int32_t> pure;  ///< index of the only phase in a cell, -1 if there are several; all cells
 
+  const Rings* rings_or_null() const { return rings ? &*rings : nullptr; }
   int n_phases() const { return static_cast<int>(phases.size()); }
   bool sharp() const { return !near.empty(); }
   bool multiphase() const { return phases.size() > 1; }

@@ -21,10 +21,11 @@ struct PhaseKernels {
   void (*sweep_mixed)(Faces&, Phase&, Segment) = nullptr;
   void (*sweep_mixed_mirror)(Faces&, Phase&, Segment) = nullptr;
   void (*sweep_free_surface)(Faces&, Phase&, double p0, const PairList&, Segment) = nullptr;
-  void (*update_pure)(const Faces&, const AlignedVector<double>& volume, Phase&, const CellList&, std::int32_t n,
-                      double dt, double centring) = nullptr;
-  void (*update_mixed)(const Faces&, const AlignedVector<double>& volume, Phase&, const CellList&, std::int32_t n,
-                       double dt, double centring) = nullptr;
+  void (*update_pure)(const Faces&, const AlignedVector<double>& volume, const Rings*, Phase&, const CellList&,
+                      std::int32_t n, double dt, double centring) = nullptr;
+  void (*update_mixed)(const Faces&, const AlignedVector<double>& volume, const Rings*, Phase&, const CellList&,
+                       std::int32_t n, double dt, double centring) = nullptr;
+  void (*hoop_of_cells)(Phase&, const Rings&, const CellList&, std::int32_t n) = nullptr;  ///< null in space
   void (*free_surface_in_cells)(Phase&, double p0, ContactList&, std::int32_t n) = nullptr;
   void (*free_surface_speed)(Phase&, double p0, ContactList&, std::int32_t n) = nullptr;
   int n_conserved = 0, n_primitive = 0, n_flux = 0, n_gain = 0, n_side = 0, n_face_state = 0, n_slopes = 0, n_inner = 0;

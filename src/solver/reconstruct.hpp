@@ -3,6 +3,7 @@
 
 #include "physics/smooth_flow.hpp"
 #include "solver/face_sweep.hpp"
+#include "solver/hoop.hpp"
 #include "solver/stencil.hpp"
 
 namespace cobasis {
@@ -10,6 +11,7 @@ namespace cobasis {
 struct ReconstructionOptions {
   double dt = 0;  ///< of the step; 0: states at its beginning
   bool limited = true;
+  const Rings* rings = nullptr;  ///< of axisymmetric scenes
 };
 
 /// How far values at faces may leave the range of the neighbours' where the flow is smooth, in units of the material's
@@ -293,15 +295,19 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
       for (int v = 0; v < P::size; ++v)
         for (int d = 0; d < D; ++d) gradient[v][d] = slope_factor[v] * gradient[v][d];
     }
-    const auto rate = rates_of_change<G, K, Real>(phase.material, w, gradient, ch2);
+    auto rate = rates_of_change<G, K, Real>(phase.material, w, gradient, ch2);
+    if constexpr (D == 2) {
+      if (options.rings)
+        add_hoop_rates<K, Real>(phase.material, w, ch2, gather<Real>(options.rings->inverse_radius.data(), at), rate);
+    }
     const Real half(0.5 * options.dt);
 
-    const auto at_face = [&](int j) {
-      const auto r = to_face(j);
+    const auto at_place = [&](const std::array<Real, D>& r) {
       typename P::template State<Real> s;
       for (int v = 0; v < P::size; ++v) s[v] = w[v] + (along(v, r) + half * rate[v]);
       return s;
     };
+    const auto at_face = [&](int j) { return at_place(to_face(j)); };
     const auto cobasis_of = [&](const typename P::template State<Real>& s) {
       return make_cobasis<G>([&](int c) { return s[P::e + c]; });
     };
@@ -313,6 +319,16 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
     }
     if (any(!good)) [[unlikely]] {
       for (int k = 0; k < lanes<Real>; ++k) fallen += i + k < n && !lane(good, k);
+    }
+    if constexpr (D == 2) {
+      if (options.rings) {
+        const AlignedVector<double>* const to_section = options.rings->to_section;
+        auto s = at_place({gather<Real>(to_section[0].data(), at), gather<Real>(to_section[1].data(), at)});
+        for (int v = 0; v < P::size; ++v) s[v] = select(good, s[v], w[v]);
+        const Real at_rest = gather<Real>(options.rings->lever.data(), at) * w[P::u + 1];
+        s[P::u + 1] = select(good, s[P::u + 1], at_rest);
+        keep_hoop<K>(phase, at, s);
+      }
     }
     for (int j = 0; j < faces.max_cell_faces; ++j) {
       const Indices<Real> entry = lookup<Real>(&faces.cell_faces[static_cast<std::size_t>(j) * faces.cell_stride], at);

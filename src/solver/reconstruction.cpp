@@ -189,6 +189,7 @@ void Reconstruction::run(Group& group, Fields& fields, const Faces& faces, const
       const std::int32_t others = without_.size();
       without_.fill(pack_width);
       if (others > 0) kernels_[k].copy_to_faces(phase, faces, without_, others);
+      if (options.rings) kernels_[k].hoop_of_cells(phase, *options.rings, without_, others);
     }
   }
 }

@@ -17,7 +17,11 @@
 
 namespace cobasis {
 
-enum class Geometry { plane, space };
+/// axisymmetric: x along the axis, y >= 0 the distance from it; no velocity around it.
+enum class Geometry { plane, axisymmetric, space };
+constexpr const char* name_of(Geometry geometry) {
+  return geometry == Geometry::plane ? "plane" : geometry == Geometry::axisymmetric ? "axisymmetric" : "space";
+}
 enum class Contact { sliding, adherence };
 
 struct PhaseSetup {
@@ -74,16 +78,17 @@ struct RegionSetup {
   std::string where;  ///< file:line, for messages
 };
 
-struct Wall {};          ///< slip wall: mirrored normal velocity and cobasis
-struct Symmetry {};      ///< the same mirror
-struct Transmissive {};  ///< zero gradient
+struct Wall {};            ///< slip wall: mirrored normal velocity and cobasis
+struct Symmetry {};        ///< the same mirror
+struct AxisOfSymmetry {};  ///< y = 0 of an axisymmetric scene
+struct Transmissive {};    ///< zero gradient
 struct Inflow {
   Filling filling;
 };
 struct Periodic {
   std::string with;
 };  ///< the partner group
-using Boundary = std::variant<Wall, Symmetry, Transmissive, Inflow, Periodic>;
+using Boundary = std::variant<Wall, Symmetry, AxisOfSymmetry, Transmissive, Inflow, Periodic>;
 
 struct BoundarySetup {
   std::string group;  ///< physical group, or "*": every group not named

@@ -66,7 +66,8 @@ double Solver::sweep_centred(double until) {
   constexpr double margin = 1.1;  // the CFL number may be exceeded by so much
   const bool second = setup_.scheme.order == 2;
   ReconstructionOptions options{.dt = stable_step_ > 0 ? step_to(until, stable_step_) : 0,
-                                .limited = setup_.scheme.limited};
+                                .limited = setup_.scheme.limited,
+                                .rings = fields_.rings_or_null()};
   for (bool first = true;; first = false) {
     if (second) {
       const Timed timed(clock_.kernels);
@@ -254,12 +255,21 @@ void Solver::update_cells(double dt) {
   for (int k = 0; k < fields_.n_phases(); ++k) {
     Phase& phase = fields_.phases[k];
     if (phase.is_void) continue;
+    if (fields_.rings && setup_.scheme.order == 2) {  // the state of fragments was borrowed after slopes were found
+      scratch_cells_.clear();
+      for (const auto& [cell, follower] : followers_)
+        if (follower == k && cell < mesh_.n_owned) scratch_cells_.push(cell);
+      const std::int32_t count = scratch_cells_.size();
+      scratch_cells_.fill(pack_width);
+      kernels_[k].hoop_of_cells(phase, *fields_.rings, scratch_cells_, count);
+    }
     for (const bool mixed : {false, true}) {
       CellList& cells = mixed ? mixed_cells_[k] : pure_cells_[k];
-      const std::int32_t count = fields_.multiphase() ? cells.size() : mesh_.n_owned;
+      const std::int32_t count = fields_.multiphase() ? cells.size() : mixed ? 0 : mesh_.n_owned;
       cells.fill(pack_width);
-      (mixed ? kernels_[k].update_mixed : kernels_[k].update_pure)(
-          faces_, fields_.volume, phase, cells, mixed && !fields_.multiphase() ? 0 : count, dt, mixed ? 0 : centring);
+      if (fields_.rings && setup_.scheme.order == 1) kernels_[k].hoop_of_cells(phase, *fields_.rings, cells, count);
+      (mixed ? kernels_[k].update_mixed : kernels_[k].update_pure)(faces_, fields_.volume, fields_.rings_or_null(),
+                                                                   phase, cells, count, dt, mixed ? 0 : centring);
     }
   }
   if (!fields_.multiphase()) return;

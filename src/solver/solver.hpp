@@ -51,6 +51,10 @@ struct RobustnessCounters {
   std::int64_t followed = 0;  ///< fragments that took a neighbour's state, summed over steps
 };
 
+inline Geometry geometry_of(const Mesh& mesh) {
+  return mesh.dimension == 3 ? Geometry::space : mesh.axisymmetric ? Geometry::axisymmetric : Geometry::plane;
+}
+
 class Solver {
  public:
   /// The mesh must outlive the solver. Throws InputError where case and mesh do not fit. Collective.

@@ -59,6 +59,21 @@ std::vector<double> conserved_state(const PhaseSetup& phase, const PhaseState& s
   return q;
 }
 
+Rings rings_of(const Mesh& mesh, std::size_t n_all) {
+  Rings rings;
+  for (auto* values : {&rings.section, &rings.inverse_radius, &rings.to_section[0], &rings.to_section[1], &rings.lever})
+    values->assign(n_all, 0);
+  for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell) {
+    const Point &ring = mesh.centroid[cell], &section = mesh.section_centroid[cell];
+    rings.section[cell] = mesh.volume[cell] / section.y;
+    rings.inverse_radius[cell] = 1 / ring.y;
+    rings.to_section[0][cell] = section.x - ring.x;
+    rings.to_section[1][cell] = section.y - ring.y;
+    rings.lever[cell] = section.y / ring.y;
+  }
+  return rings;
+}
+
 template <class G>
 void pick_kernels(const Setup& setup, bool scalar, std::vector<PhaseKernels>& phases, std::vector<PairKernels>& pairs) {
   const int n = static_cast<int>(setup.phases.size());
@@ -83,18 +98,17 @@ void pick_kernels(const Setup& setup, bool scalar, std::vector<PhaseKernels>& ph
 Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mpi& mpi, SolverOptions options)
     : setup_(setup), geometry_(geometry), mesh_(mesh), mpi_(mpi), options_(std::move(options)) {
   boundaries_ = resolve_boundaries(setup_, mesh_);
+  check_axis(setup_, mesh_, boundaries_, mpi_);
   faces_ = make_faces(mesh_);
   std::vector<FaceRange> inside{{0, mesh_.n_interior_faces}}, mirrors;
   for (std::size_t i = 0; i < boundaries_.size(); ++i) {
     const BoundaryGroup& group = mesh_.boundary_groups[i];
-    const bool mirror =
-        std::holds_alternative<Wall>(boundaries_[i]) || std::holds_alternative<Symmetry>(boundaries_[i]);
-    (mirror ? mirrors : inside).push_back({group.first, group.last});
+    (is_mirror_image(boundaries_[i]) ? mirrors : inside).push_back({group.first, group.last});
     // zero gradient: the cell is its own neighbour; behind a mirror nothing is read
     if (!std::holds_alternative<Inflow>(boundaries_[i]))
       for (std::int32_t face = group.first; face < group.last; ++face) faces_.right[face] = faces_.left[face];
   }
-  if (geometry_ == Geometry::plane)
+  if (geometry_ != Geometry::space)
     pick_kernels<Plane>(setup_, options_.scalar, kernels_, pair_kernels_);
   else
     pick_kernels<Space>(setup_, options_.scalar, kernels_, pair_kernels_);
@@ -125,12 +139,13 @@ Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
 
 void Solver::allocate() {
   const std::size_t n_all = mesh_.n_all() + pack_width;
-  fields_.dimension = geometry_ == Geometry::plane ? 2 : 3;
+  fields_.dimension = geometry_ != Geometry::space ? 2 : 3;
   fields_.n_owned = mesh_.n_owned;
   fields_.n_all = mesh_.n_all();
   fields_.volume.assign(mesh_.volume.begin(), mesh_.volume.end());
   fields_.volume.resize(n_all, 1);
   fields_.pure.assign(n_all, 0);
+  if (mesh_.axisymmetric) fields_.rings = rings_of(mesh_, n_all);
   const bool multiphase = setup_.phases.size() > 1;
   const std::size_t list_capacity = faces_.n + n_parts * pack_width;
   const std::size_t pure_slots = first_mixed_slot(faces_),
@@ -152,6 +167,7 @@ void Solver::allocate() {
     for (int c = 0; c < kernels.n_conserved; ++c)
       phase.conserved[c].assign(
           n_all, c < fields_.first_cobasis() ? 0 : identity_cobasis(fields_.dimension, c - fields_.first_cobasis()));
+    if (mesh_.axisymmetric) phase.hoop = CellNumbers(n_all, n_hoop);
     phase.primitive.assign(kernels.n_primitive, AlignedVector<double>(n_all, 0));
     if (!multiphase) phase.primitive[0] = {};  // see Phase::density
 
@@ -190,7 +206,7 @@ void Solver::set_state(int k, std::int32_t cell, double alpha, const PhaseState&
   Phase& phase = fields_.phases[k];
   if (fields_.multiphase()) phase.alpha[cell] = alpha;
   if (phase.is_void || alpha == 0) return;
-  const std::vector<double> q = geometry_ == Geometry::plane ? conserved_state<Plane>(setup_.phases[k], state, x)
+  const std::vector<double> q = geometry_ != Geometry::space ? conserved_state<Plane>(setup_.phases[k], state, x)
                                                              : conserved_state<Space>(setup_.phases[k], state, x);
   for (int c = 0; c < phase.n_conserved(); ++c)
     phase.conserved[c][cell] = (c < fields_.first_cobasis() ? alpha : 1) * q[c];

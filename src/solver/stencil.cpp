@@ -69,7 +69,7 @@ Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Bou
   for (std::size_t i = 0; i < boundaries.size(); ++i)
     for (std::int32_t f = mesh.boundary_groups[i].first; f < mesh.boundary_groups[i].last; ++f) {
       const std::int32_t b = f - mesh.first_boundary_face();
-      is_mirror[b] = std::holds_alternative<Wall>(boundaries[i]) || std::holds_alternative<Symmetry>(boundaries[i]);
+      is_mirror[b] = is_mirror_image(boundaries[i]);
       is_inflow[b] = std::holds_alternative<Inflow>(boundaries[i]);
     }
   const double domain = diagonal(mesh, mpi);
@@ -117,7 +117,7 @@ Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Bou
       for (int a = 0; a < 3; ++a)
         stencil.weight[a][at] = solve[a][0] * delta.x + solve[a][1] * delta.y + solve[a][2] * delta.z;
     }
-    stencil.tolerance[cell] = std::pow(std::pow(mesh.volume[cell], 1.0 / mesh.dimension) / domain, 1.5);
+    stencil.tolerance[cell] = std::pow(std::pow(mesh.measure(cell), 1.0 / mesh.dimension) / domain, 1.5);
   }
   stencil.averages = mpi.any(stencil.averages);
   return stencil;

@@ -15,15 +15,14 @@ Scene open_scene(Setup setup, const Mpi& mpi, const SceneOptions& options) {
   MeshRequest request;
   request.file = scene.setup.mesh_file;
   request.parameters = scene.setup.mesh_parameters;
-  request.dimension = !scene.setup.scene ? 0 : *scene.setup.scene == Geometry::plane ? 2 : 3;
+  request.dimension = !scene.setup.scene ? 0 : *scene.setup.scene == Geometry::space ? 3 : 2;
+  request.axisymmetric = scene.setup.scene == Geometry::axisymmetric;
   request.periodic = periodic_pairs(scene.setup);
   request.partition = options.partition;
   scene.mesh = read_mesh(request, mpi);
   if (options.change_mesh) options.change_mesh(scene.mesh);
   return scene;
 }
-
-Geometry geometry_of(const Mesh& mesh) { return mesh.dimension == 2 ? Geometry::plane : Geometry::space; }
 
 }  // namespace
 
