@@ -186,11 +186,14 @@ RunResult run_scene(const Scene& scene, const Mpi& mpi, Speech speech) {
     if (setup.scheme.order == 2)
       std::cout << fmt::format("second order: fell back to the first in {:.3g} % of the reconstructions\n",
                                100 * robustness.fallback_share);
-    if (robustness.mended + robustness.followed > 0)
+    if (robustness.redone > 0)
+      std::cout << fmt::format("robustness: {} steps taken again, with caution where they had failed\n",
+                               robustness.redone);
+    if (robustness.mended + robustness.torn + robustness.followed > 0)
       std::cout << fmt::format(
-          "fragments: {} averaged with a neighbour, {} without a state of their own, summed over "
-          "steps\n",
-          robustness.mended, robustness.followed);
+          "fragments: {} averaged with a neighbour, {} relaxed to the void's pressure, {} without a state of their "
+          "own, summed over steps\n",
+          robustness.mended, robustness.torn, robustness.followed);
     for (const IntegralSetup& integral : setup.integrals)
       std::cout << fmt::format("{} = {:.6g} {}\n", integral.name, output.integral(integral.name), integral.unit);
   }

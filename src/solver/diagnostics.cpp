@@ -30,12 +30,14 @@ double Solver::mixed_share() const {
 
 RobustnessCounters Solver::robustness() const {
   RobustnessCounters counters;
+  counters.redone = redone_;
   if (reconstruction_) {
     const double all = static_cast<double>(mpi_.sum(reconstruction_->reconstructed()));
     const double fallen = static_cast<double>(mpi_.sum(reconstruction_->fallen()));
     counters.fallback_share = all > 0 ? fallen / all : 0;
   }
   if (redistribution_) counters.mended = mpi_.sum(redistribution_->counters().mended);
+  counters.torn = mpi_.sum(torn_);
   counters.followed = mpi_.sum(followed_);
   return counters;
 }

@@ -137,6 +137,8 @@ struct Fields {
   /// Of sharp interfaces: whether an interface is so near to a face that phases share it during the step. Else both its
   /// cells are pure in the same phase.
   AlignedVector<std::int32_t> near;
+  AlignedVector<double> cautious;  ///< 1 in cells that stay at first order and without sharp interfaces, else 0; empty:
+                                   ///< in no cell
   AlignedVector<std::int32_t> pure;  ///< index of the only phase in a cell, -1 if there are several; all cells
 
   const Rings* rings_or_null() const { return rings ? &*rings : nullptr; }

@@ -121,6 +121,11 @@ void Reconstruction::select(const Group& group, const Fields& fields, int k, int
       some &= positive_lanes(own - Pack(least_for_slopes));
       sloping &= positive_lanes(least - Pack(least_for_slopes));
     }
+    if (!fields.cautious.empty()) {
+      const unsigned cautious = positive_lanes(gather<Pack>(fields.cautious.data(), at));
+      sloping &= ~cautious;
+      some &= ~cautious;
+    }
     store_chosen(sloping, at, with_slopes_.end());
     with_slopes_.grow(std::popcount(sloping));
     store_chosen(some & ~sloping, at, beside_gaps_.end());

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cobasis {
 namespace {
 
-/// Below this volume fraction a phase is averaged. Stable at the whole cell's step needs about 0.6 of the CFL number.
-constexpr double least_donor = 0.03;  // what is small itself has no state to share
-constexpr double small_fraction = 0.5;
+constexpr double least_donor = 0.03;    ///< what is small itself has no state to share
+constexpr double small_fraction = 0.5;  ///< below this volume fraction a phase is averaged
 /// A negative volume may take away so much of the neighbour's share that their mean means nothing. The sum of both must
 /// exceed this part of the sum of magnitudes: then the mean leaves the range of the two states by half their difference
 /// at most.
@@ -45,8 +45,8 @@ Redistribution::Redistribution(const Mpi& mpi, const Mesh& mesh, const Fields& f
     : alpha_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases(), 0), 16),
       choices_(mpi, mesh.neighbours, capacities(mesh, choice_size * fields.n_phases(), 0), 17),
       shares_(mpi, mesh.neighbours,
-              capacities(mesh, fields.n_phases() * (1 + most_conserved(fields)),
-                         fields.n_phases() * (1 + most_conserved(fields))),
+              capacities(mesh, fields.n_phases() * (1 + 2 * most_conserved(fields)),
+                         fields.n_phases() * (1 + 2 * most_conserved(fields))),
               18),
       neighbour_of_halo_(mesh.n_halo),
       asked_(mesh.neighbours.size()),
@@ -98,7 +98,7 @@ void Redistribution::choose(const Mesh& mesh, const Faces& faces, const Fields& 
       donor = other, most = there;
   }
   if (donor >= 0)
-    pairs_.push_back({cell, donor, k, false, {}});
+    pairs_.push_back({cell, donor, k});
   else
     ++counters_.alone;
 }
@@ -128,17 +128,48 @@ void Redistribution::share_choices(const Mesh& mesh) {
     received_[n].first = static_cast<std::int32_t>(pairs_.size());
     for (std::size_t at = 0; at < in.size(); at += choice_size)
       pairs_.push_back({neighbour.receive_first + static_cast<std::int32_t>(in[at]),
-                        neighbour.send[static_cast<std::size_t>(in[at + 1])],
-                        static_cast<int>(in[at + 2]),
-                        false,
-                        {}});
+                        neighbour.send[static_cast<std::size_t>(in[at + 1])], static_cast<int>(in[at + 2])});
     received_[n].second = static_cast<std::int32_t>(pairs_.size());
   }
 }
 
-Redistribution::Share Redistribution::share_of(const Fields& fields, int k, std::int32_t cell) const {
+/// What part of the donor the neighbourhood of a small volume needs, to be as large as `target` cells.
+void Redistribution::lend(const Fields& fields, Pair& pair, double target) const {
+  const auto& alpha = fields.phases[pair.k].alpha;
+  const double most = 1.0 / (1 + members_[pair.k].chosen[pair.donor]);
+  const double missing = (target - alpha[pair.cell]) * fields.volume[pair.cell];
+  pair.lent = std::min(most, missing / (alpha[pair.donor] * fields.volume[pair.donor]));
+}
+
+/// Visits the pairs to which an owned cell lends, in the order of its faces.
+template <class Visit>
+void Redistribution::for_each_taker(const Mesh& mesh, const Faces& faces, int k, std::int32_t cell,
+                                    const Visit& visit) const {
+  const Members& members = members_[k];
+  int count = 0;
+  for (int f = 0; f < faces.max_cell_faces && count < members.chosen[cell]; ++f) {
+    const std::int32_t other = neighbour_at(mesh, faces, cell, f);
+    if (other < 0) continue;
+    const std::int32_t pair = members.pair_of[other];
+    if (pair < 0 || pairs_[pair].donor != cell) continue;
+    bool again = false;  // two faces can join the same cells through a periodic pair
+    for (int g = 0; g < f; ++g) again = again || neighbour_at(mesh, faces, cell, g) == other;
+    if (again) continue;
+    visit(pairs_[pair]);
+    ++count;
+  }
+}
+
+/// What an owned cell does not lend.
+double Redistribution::kept(const Mesh& mesh, const Faces& faces, int k, std::int32_t cell) const {
+  double part = 1;
+  for_each_taker(mesh, faces, k, cell, [&](const Pair& pair) { part -= pair.lent; });
+  return part;
+}
+
+Redistribution::Share Redistribution::share_of(const Fields& fields, int k, std::int32_t cell, double fraction) const {
   const Phase& phase = fields.phases[k];
-  const double part = fields.volume[cell] / (1 + members_[k].chosen[cell]), volume = phase.alpha[cell] * part;
+  const double part = fields.volume[cell] * fraction, volume = phase.alpha[cell] * part;
   Share share;
   share.volume = volume;
   for (int c = 0; c < phase.n_conserved(); ++c)
@@ -146,30 +177,68 @@ Redistribution::Share Redistribution::share_of(const Fields& fields, int k, std:
   return share;
 }
 
+/// At second order the states at a cell's faces differ from their mean by its slopes. From the donor's middle to that
+/// of what is beyond a face it is twice as far as to the face, if the cell is full; half as far again from half of it.
+std::array<double, Redistribution::most_components> Redistribution::step_beside(const Mesh& mesh, const Faces& faces,
+                                                                                const Fields& fields,
+                                                                                const Pair& pair) const {
+  const Phase& phase = fields.phases[pair.k];
+  std::array<double, most_components> mean{}, there{}, step{};
+  if (phase.face_states.stride == 0) return step;
+  const int D = fields.dimension, n_primitive = static_cast<int>(phase.primitive.size());
+  int count = 0;
+  for (int f = 0; f < faces.max_cell_faces; ++f) {
+    const std::int32_t entry = faces.cell_faces[static_cast<std::size_t>(f) * faces.cell_stride + pair.donor];
+    const std::int32_t face = entry >> 1;
+    if (face >= faces.n) continue;
+    const auto value = [&](int c) {
+      return phase.face_states.component(c)[(entry & 1) * phase.face_states.stride + face];
+    };
+    std::array<double, most_components> Q{};
+    Q[0] = value(0);
+    for (int d = 0; d < D; ++d) Q[1 + d] = value(0) * value(1 + d);
+    Q[1 + D] = value(0) * value(3 + D);
+    for (int c = 2 + D; c < phase.n_conserved(); ++c) Q[c] = value(n_primitive + c - (2 + D));
+    ++count;
+    for (int c = 0; c < phase.n_conserved(); ++c) mean[c] += Q[c];
+    if (neighbour_at(mesh, faces, pair.donor, f) == pair.cell) there = Q;
+  }
+  const double distance = 1 + std::clamp(phase.alpha[pair.cell], 0.0, 1.0);  // in units of that to the face
+  for (int c = 0; c < phase.n_conserved(); ++c) step[c] = distance * (there[c] - mean[c] / count);
+  return step;
+}
+
 /// The mean of every pair, from the state before.
-void Redistribution::average(const Mesh& mesh, const Fields& fields) {
-  const auto send = [&](std::vector<double>& out, int k, std::int32_t cell) {
-    const Share share = share_of(fields, k, cell);
+void Redistribution::average(const Mesh& mesh, const Faces& faces, const Fields& fields) {
+  const auto own_share = [&](const Pair& pair) {
+    return share_of(fields, pair.k, pair.cell, kept(mesh, faces, pair.k, pair.cell));
+  };
+  const auto donors_share = [&](const Pair& pair) { return share_of(fields, pair.k, pair.donor, pair.lent); };
+  const auto send = [&](std::vector<double>& out, int k, const Share& share) {
     out.push_back(share.volume);
     out.insert(out.end(), share.content.begin(), share.content.begin() + fields.phases[k].n_conserved());
   };
   for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
     std::vector<double>& out = shares_.outgoing(n);
     out.clear();
-    for (const std::int32_t i : asked_[n]) send(out, pairs_[i].k, pairs_[i].cell);
-    for (std::int32_t i = received_[n].first; i < received_[n].second; ++i) send(out, pairs_[i].k, pairs_[i].donor);
+    for (const std::int32_t i : asked_[n]) send(out, pairs_[i].k, own_share(pairs_[i]));
+    for (std::int32_t i = received_[n].first; i < received_[n].second; ++i) {
+      const Pair& pair = pairs_[i];
+      send(out, pair.k, donors_share(pair));
+      out.insert(out.end(), pair.step.begin(), pair.step.begin() + fields.phases[pair.k].n_conserved());
+    }
   }
   shares_.start();
   const auto combine = [&](Pair& pair, const Share& a, const Share& b) {
     const double volume = a.volume + b.volume;
     pair.apart = !(volume > least_sum * (std::fabs(a.volume) + std::fabs(b.volume)));
     if (pair.apart) return;
+    pair.volume = volume, pair.own = a.volume;
     for (int c = 0; c < fields.phases[pair.k].n_conserved(); ++c) pair.mean[c] = (a.content[c] + b.content[c]) / volume;
   };
   for (std::size_t i = 0; i < n_own_pairs_; ++i) {
     Pair& pair = pairs_[i];
-    if (pair.donor < mesh.n_owned)
-      combine(pair, share_of(fields, pair.k, pair.cell), share_of(fields, pair.k, pair.donor));
+    if (pair.donor < mesh.n_owned) combine(pair, own_share(pair), donors_share(pair));
   }
   shares_.finish();
   for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
@@ -185,41 +254,42 @@ void Redistribution::average(const Mesh& mesh, const Fields& fields) {
     // what this rank's pairs ask of the neighbour is what was received there, and the other way round
     for (std::int32_t i = received_[n].first; i < received_[n].second; ++i) {
       Pair& pair = pairs_[i];
-      combine(pair, receive(pair.k), share_of(fields, pair.k, pair.donor));
+      combine(pair, receive(pair.k), donors_share(pair));
     }
     for (const std::int32_t i : asked_[n]) {
       Pair& pair = pairs_[i];
-      combine(pair, share_of(fields, pair.k, pair.cell), receive(pair.k));
+      combine(pair, own_share(pair), receive(pair.k));
+      std::copy_n(in, fields.phases[pair.k].n_conserved(), pair.step.begin());
+      in += fields.phases[pair.k].n_conserved();
     }
   }
   for (std::size_t i = 0; i < n_own_pairs_; ++i) counters_.apart += pairs_[i].apart;
 }
 
-/// The mean over a cell's neighbourhoods: its own first, then in the order of its faces.
+/// The mean over a cell's neighbourhoods, weighted by the part it has in each: its own first, then in the order of its
+/// faces.
 void Redistribution::take(const Mesh& mesh, const Faces& faces, Fields& fields, int k, std::int32_t cell) {
   Phase& phase = fields.phases[k];
   const int first_cobasis = fields.first_cobasis(), size = phase.n_conserved();
   const double alpha = phase.alpha[cell];
   std::array<double, most_components> own, sum{};
   for (int c = 0; c < size; ++c) own[c] = phase.conserved[c][cell] / (c < first_cobasis ? alpha : 1);
-  const Members& members = members_[k];
-  int count = 0;
-  const auto add = [&](std::int32_t pair) {
-    const auto& mean = pair < 0 || pairs_[pair].apart ? own : pairs_[pair].mean;
-    for (int c = 0; c < size; ++c) sum[c] += mean[c];
-    ++count;
+  const auto add = [&](const Pair& pair, double weight, bool donor) {
+    if (pair.apart) {
+      for (int c = 0; c < size; ++c) sum[c] += weight * own[c];
+      return;
+    }
+    const double beside = donor ? -pair.own / pair.volume : 1 - pair.own / pair.volume;
+    for (int c = 0; c < size; ++c) sum[c] += weight * (pair.mean[c] + beside * pair.step[c]);
   };
-  add(members.pair_of[cell]);
-  for (int f = 0; f < faces.max_cell_faces && count <= members.chosen[cell]; ++f) {
-    const std::int32_t other = neighbour_at(mesh, faces, cell, f);
-    if (other < 0) continue;
-    const std::int32_t pair = members.pair_of[other];
-    if (pair < 0 || pairs_[pair].donor != cell) continue;
-    bool again = false;  // two faces can join the same cells through a periodic pair
-    for (int g = 0; g < f; ++g) again = again || neighbour_at(mesh, faces, cell, g) == other;
-    if (!again) add(pair);
-  }
-  for (int c = 0; c < size; ++c) phase.conserved[c][cell] = sum[c] / count * (c < first_cobasis ? alpha : 1);
+  const double part = kept(mesh, faces, k, cell);
+  const std::int32_t pair = members_[k].pair_of[cell];
+  if (pair >= 0)
+    add(pairs_[pair], part, false);
+  else
+    for (int c = 0; c < size; ++c) sum[c] += part * own[c];
+  for_each_taker(mesh, faces, k, cell, [&](const Pair& taker) { add(taker, taker.lent, true); });
+  for (int c = 0; c < size; ++c) phase.conserved[c][cell] = sum[c] * (c < first_cobasis ? alpha : 1);
 }
 
 void Redistribution::run(const Mesh& mesh, const Faces& faces, Fields& fields,
@@ -234,7 +304,7 @@ void Redistribution::run(const Mesh& mesh, const Faces& faces, Fields& fields,
         choose(mesh, faces, fields, k, cell, std::max(least_donor, std::fabs(phase.alpha[cell])));
   }
   counters_.merged += static_cast<std::int64_t>(pairs_.size());
-  settle(mesh, faces, fields);
+  settle(mesh, faces, fields, small_fraction);
 }
 
 void Redistribution::mend(const Mesh& mesh, const Faces& faces, Fields& fields,
@@ -243,11 +313,11 @@ void Redistribution::mend(const Mesh& mesh, const Faces& faces, Fields& fields,
   share_alpha(mesh, fields);
   for (const auto& [cell, k] : volumes) choose(mesh, faces, fields, k, cell, 0);
   counters_.mended += static_cast<std::int64_t>(pairs_.size());
-  settle(mesh, faces, fields);
+  settle(mesh, faces, fields, std::numeric_limits<double>::infinity());
 }
 
 /// Averages the pairs that were chosen.
-void Redistribution::settle(const Mesh& mesh, const Faces& faces, Fields& fields) {
+void Redistribution::settle(const Mesh& mesh, const Faces& faces, Fields& fields, double target) {
   n_own_pairs_ = pairs_.size();
   share_choices(mesh);
   changed_.clear();
@@ -259,7 +329,12 @@ void Redistribution::settle(const Mesh& mesh, const Faces& faces, Fields& fields
     if (pair.donor >= mesh.n_owned) continue;
     if (members.chosen[pair.donor]++ == 0 && members.pair_of[pair.donor] < 0) changed_.emplace_back(pair.donor, pair.k);
   }
-  average(mesh, fields);
+  for (Pair& pair : pairs_) {
+    if (pair.donor >= mesh.n_owned) continue;
+    lend(fields, pair, target);
+    if (target < 1 && fields.phases[pair.k].alpha[pair.cell] > 0) pair.step = step_beside(mesh, faces, fields, pair);
+  }
+  average(mesh, faces, fields);
   for (const auto& [cell, k] : changed_) take(mesh, faces, fields, k, cell);
   for (const Pair& pair : pairs_) {
     members_[pair.k].pair_of[pair.cell] = -1;

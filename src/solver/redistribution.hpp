@@ -25,11 +25,12 @@ struct RedistributionCounters {
 };
 
 /// Phase k of cell i with alpha_ik < 1/2 has the neighbourhood {i, d}, d the face neighbour with the largest alpha_dk,
-/// which must exceed |alpha_ik| (of equals the one with the smaller global number); any other has {i}. With N_j the
-/// number of neighbourhoods that contain j and V the volumes of the phase, a neighbourhood has the mean
-/// Q^_i = sum V_j / N_j Q_j / sum V_j / N_j, and a cell takes the mean of the Q^ of its neighbourhoods: sum V Q is
-/// conserved, and for V > 0 all averages are convex. Q: mass, momentum, energy per volume of the phase, and the
-/// cobasis.
+/// which must exceed |alpha_ik| (of equals the one with the smaller global number); any other has {i}. A donor d lends
+/// the part beta of itself that brings the neighbourhood to half a cell, at most 1 / (1 + number of takers), and keeps
+/// the rest. With V the volumes of the phase a neighbourhood has the mean Q^ of what is in it, and a cell takes the
+/// mean of the Q^ of its neighbourhoods, weighted by its parts: sum V Q is conserved, for V > 0 all averages are
+/// convex, and what is nearly half a cell is hardly averaged (Giuliani, Almgren, Bell, Berger, de Frahan, Rangarajan,
+/// J. Comput. Phys. 464 (2022) 111305). Q: mass, momentum, energy per volume of the phase, and the cobasis.
 class Redistribution {
  public:
   Redistribution(const Mpi& mpi, const Mesh& mesh, const Fields& fields);
@@ -51,7 +52,7 @@ class Redistribution {
  private:
   static constexpr int most_components = Layout<Space, Kind::solid>::n_conserved;
 
-  /// A cell's share of a neighbourhood: V / N, and that times Q.
+  /// A cell's share of a neighbourhood: its part of V, and that times Q.
   struct Share {
     double volume;
     std::array<double, most_components> content;
@@ -59,8 +60,11 @@ class Redistribution {
   struct Pair {  // neighbourhood of phase k of two cells, of which this rank owns at least one
     std::int32_t cell, donor;
     int k;
-    bool apart;                                // no mean: both keep what they have
-    std::array<double, most_components> mean;  // Q^
+    double lent = 0;                             // beta, known to the donor's owner
+    bool apart = false;                          // no mean: both keep what they have
+    double volume = 0, own = 0;                  // of the phase: of the neighbourhood, of the cell in it
+    std::array<double, most_components> mean{};  // Q^
+    std::array<double, most_components> step{};  // Q in the cell less Q in the donor, by the donor's slopes
   };
   /// Which cells of a phase are averaged; all is -1 and 0 between runs.
   struct Members {
@@ -70,11 +74,17 @@ class Redistribution {
 
   void share_alpha(const Mesh& mesh, Fields& fields);
   void choose(const Mesh& mesh, const Faces& faces, const Fields& fields, int k, std::int32_t cell, double more_than);
-  void settle(const Mesh& mesh, const Faces& faces, Fields& fields);
+  void settle(const Mesh& mesh, const Faces& faces, Fields& fields, double target);
   void share_choices(const Mesh& mesh);
-  void average(const Mesh& mesh, const Fields& fields);
+  void average(const Mesh& mesh, const Faces& faces, const Fields& fields);
+  void lend(const Fields& fields, Pair& pair, double target) const;
+  double kept(const Mesh& mesh, const Faces& faces, int k, std::int32_t cell) const;
+  template <class Visit>
+  void for_each_taker(const Mesh& mesh, const Faces& faces, int k, std::int32_t cell, const Visit& visit) const;
   void take(const Mesh& mesh, const Faces& faces, Fields& fields, int k, std::int32_t cell);
-  Share share_of(const Fields& fields, int k, std::int32_t cell) const;
+  std::array<double, most_components> step_beside(const Mesh& mesh, const Faces& faces, const Fields& fields,
+                                                  const Pair& pair) const;
+  Share share_of(const Fields& fields, int k, std::int32_t cell, double fraction) const;
 
   NeighbourExchange alpha_, choices_, shares_;
   std::vector<std::int32_t> neighbour_of_halo_;

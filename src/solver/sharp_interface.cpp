@@ -160,10 +160,16 @@ void SharpInterface::wet_face(const Faces& faces, Fields& fields, std::int32_t f
   };
   if (inflow || !knows_plane(left) || (!boundary && !knows_plane(right))) return as_the_cells_are();
   const auto wetted = [&](int k) -> double& { return fields.phases[k].wetted[0][face]; };
+  constexpr double agreement = 0.01;  // relative
+  bool agree = true;
   double sum = 0;
   for (const int k : planes_of_) {
     double share = side_fraction(fields, k, face, 0, dt);
-    if (!boundary) share = 0.5 * (share + side_fraction(fields, k, face, 1, dt));
+    if (!boundary) {
+      const double other = side_fraction(fields, k, face, 1, dt), both = share + other;
+      agree = agree && std::fabs(share - other) <= agreement * std::min(both, 2 - both);
+      share = 0.5 * both;
+    }
     wetted(k) = share < 1e-12 ? 0 : share > 1 - 1e-12 ? 1 : share;
     sum += wetted(k);
   }
@@ -177,7 +183,8 @@ void SharpInterface::wet_face(const Faces& faces, Fields& fields, std::int32_t f
     const Phase& phase = fields.phases[k];
     const bool in_left = phase.alpha[left] > 0, in_right = phase.alpha[right] > 0;
     if (phase.is_void || wetted(k) == 0 || (in_left && in_right)) continue;
-    if (in_left == in_right && has_state(fields, k, left) && has_state(fields, k, right)) continue;
+    // From one empty cell to the next it comes within a step only where planes leave no doubt of it.
+    if (in_left == in_right && agree && has_state(fields, k, left) && has_state(fields, k, right)) continue;
     const std::int32_t present = in_left ? left : right;
     double un = phase.primitive[1][present] * faces.nx[face] + phase.primitive[2][present] * faces.ny[face];
     if (fields.dimension == 3) un += phase.primitive[3][present] * faces.nz[face];

@@ -24,7 +24,7 @@ void SharpInterface::find_health(Fields& fields) {
   for (int k = 0; k < fields.n_phases(); ++k) {
     const auto& alpha = fields.phases[k].alpha;
     for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell)
-      health_[k][cell] = fields.phases[k].is_void || !(alpha[cell] > 0) || alpha[cell] >= 0.5 ? reach + 1 : 0;
+      health_[k][cell] = !(alpha[cell] > 0) || alpha[cell] >= 0.5 ? reach + 1 : 0;
   }
   for (int distance = 1; distance <= reach; ++distance) {
     for (int k = 0; k < fields.n_phases(); ++k) {
@@ -45,7 +45,7 @@ void SharpInterface::find_health(Fields& fields) {
 
 /// Whether the cell tells its neighbours of the planes of its interfaces.
 bool SharpInterface::has_planes(const Fields& fields, std::int32_t cell) const {
-  if (!shares_planes_) return false;
+  if (!shares_planes_ || (!fields.cautious.empty() && fields.cautious[cell] > 0)) return false;
   for (int k = 0; k < fields.n_phases(); ++k)
     if (health_[k][cell] == 0) return false;
   return true;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "math/errors.hpp"
+#include "solver/splinter.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace cobasis {
@@ -17,9 +18,30 @@ constexpr double fragment = 1e-2, fragment_of_sharp = 3e-2;
 
 }  // namespace
 
+/// A step after which a state is not admissible is taken again, with caution around that cell, and then smaller.
 double Solver::advance(double until) {
+  constexpr int most_attempts = 6;
   const double start = seconds();
   clock_.step_start = start;
+  save();
+  for (attempt_ = 0;; ++attempt_) {
+    caution_->tell(fields_, step_);
+    take_step(until);
+    if (!mpi_.any(troubled_)) break;
+    if (attempt_ + 1 == most_attempts) stop_unphysical();
+    ++redone_;
+    restore();
+    caution_->spread(mesh_, step_);
+  }
+  book_boundaries(last_dt_);
+  time_ = last_dt_ >= until - time_ ? until : time_ + last_dt_;
+  ++step_;
+  clock_.total += seconds() - start;
+  return last_dt_;
+}
+
+/// Changes the state, and troubled_ where that failed.
+void Solver::take_step(double until) {
   send_halo();
   double dt;
   if (setup_.scheme.order == 1 && !sharp_) {
@@ -29,22 +51,59 @@ double Solver::advance(double until) {
     dt = sweep_centred(until);
   }
   if (sharp_) sharp_->act(faces_, fields_, touched_cells_.span());
-  const bool arrives = dt >= until - time_;
   update_cells(dt);
   if (redistribution_) redistribution_->run(mesh_, faces_, fields_, touched_cells_.span());
-  book_boundaries(dt);
   last_dt_ = dt;
-  time_ = arrives ? until : time_ + dt;
-  ++step_;
   convert_owned(dt);
-  clock_.total += seconds() - start;
-  if (mpi_.any(!unphysical_.empty())) stop_unphysical();
-  return dt;
 }
 
-/// The step at the case's CFL number, not beyond `until`.
+void Solver::save() {
+  std::size_t i = 0;
+  const auto keep = [&](const AlignedVector<double>& values) {
+    if (i == saved_.size()) saved_.emplace_back(mesh_.n_owned);
+    std::copy_n(values.begin(), values.empty() ? 0 : mesh_.n_owned, saved_[i++].begin());
+  };
+  for (const Phase& phase : fields_.phases) {
+    keep(phase.alpha);
+    for (const auto& component : phase.conserved) keep(component);
+  }
+  saved_followers_ = followers_;
+}
+
+void Solver::restore() {
+  std::size_t i = 0;
+  const auto put_back = [&](AlignedVector<double>& values) {
+    std::copy_n(saved_[i++].begin(), values.empty() ? 0 : mesh_.n_owned, values.begin());
+  };
+  for (Phase& phase : fields_.phases) {
+    put_back(phase.alpha);
+    for (auto& component : phase.conserved) put_back(component);
+  }
+  followers_ = saved_followers_;
+  unphysical_.clear();
+  troubled_ = false;
+  bad_.clear();  // was admissible
+  for (int k = 0; k < fields_.n_phases(); ++k) {
+    Phase& phase = fields_.phases[k];
+    if (phase.is_void) continue;
+    scratch_cells_.clear();
+    for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell)
+      if (!fields_.multiphase() || phase.alpha[cell] != 0) scratch_cells_.push(cell);
+    const std::int32_t count = scratch_cells_.size();
+    scratch_cells_.fill(pack_width);
+    kernels_[k].primitives(phase, scratch_cells_, count, bad_);
+  }
+  if (!fields_.multiphase()) return;
+  scratch_cells_.clear();
+  for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) scratch_cells_.push(cell);
+  scratch_cells_.fill(pack_width);
+  fields_.complete(scratch_cells_, mesh_.n_owned);
+}
+
+/// The step at the case's CFL number, not beyond `until`; halved from the third attempt on.
 double Solver::step_to(double until, double stable_step) const {
-  return time_ + setup_.cfl * stable_step < until ? setup_.cfl * stable_step : until - time_;
+  const double step = std::ldexp(setup_.cfl * stable_step, std::min(0, 1 - attempt_));
+  return time_ + step < until ? step : until - time_;
 }
 
 /// All faces, with the states of their cells. Returns the step at CFL 1.
@@ -323,7 +382,7 @@ void Solver::convert_owned(double dt) {
     bad_.clear();
     const Timed timed(clock_.kernels);
     kernels_[0].primitives(fields_.phases[0], material_cells_, material_count_, bad_);
-    for (const std::int32_t cell : bad_) note_unphysical(0, cell);
+    for (const std::int32_t cell : bad_) note_troubled(cell, 0);
     return;
   }
 
@@ -340,7 +399,14 @@ void Solver::convert_owned(double dt) {
   std::sort(inadmissible.begin(), inadmissible.end());
   inadmissible.erase(std::unique(inadmissible.begin(), inadmissible.end()), inadmissible.end());
 
+  relax_splinters(inadmissible);
+  if (attempt_ == 0) {
+    for (const auto& [cell, k] : inadmissible)
+      if (fields_.phases[k].alpha[cell] >= (sharp_ ? fragment_of_sharp : fragment)) note_troubled(cell, k);
+    if (mpi_.any(troubled_)) return;
+  }
   if (redistribution_) mend(inadmissible);
+  relax_splinters(inadmissible);
   if (exchange_) {
     std::vector<std::pair<std::int32_t, int>> fragments;
     for (const auto& [cell, k] : inadmissible)
@@ -370,8 +436,28 @@ void Solver::convert_owned(double dt) {
     if (sharp_ && fields_.phases[k].alpha[cell] < fragment_of_sharp)
       followers_.emplace_back(cell, k);
     else
-      note_unphysical(k, cell);
+      note_troubled(cell, k);
   followed_ += static_cast<std::int64_t>(followers_.size());
+}
+
+/// Before a void: see relax_to_void.
+void Solver::relax_splinters(std::vector<std::pair<std::int32_t, int>>& inadmissible) {
+  const auto is_void = [](const Phase& phase) { return phase.is_void; };
+  const auto around = std::find_if(fields_.phases.begin(), fields_.phases.end(), is_void);
+  if (around == fields_.phases.end()) return;
+  const int void_phase = static_cast<int>(around - fields_.phases.begin());
+  const auto relaxed = [&](const std::pair<std::int32_t, int>& splinter) {
+    const auto [cell, k] = splinter;
+    if (fields_.phases[k].alpha[cell] > largest_splinter || !relax_to_void(fields_, k, void_phase, cell)) return false;
+    scratch_cells_.clear();
+    scratch_cells_.push(cell);
+    scratch_cells_.fill(pack_width);
+    bad_.clear();
+    kernels_[k].primitives(fields_.phases[k], scratch_cells_, 1, bad_);
+    ++torn_;
+    return bad_.empty();
+  };
+  inadmissible.erase(std::remove_if(inadmissible.begin(), inadmissible.end(), relaxed), inadmissible.end());
 }
 
 /// Averages what is not admissible with neighbours until it is; what cannot be mended stays in the list.
@@ -397,6 +483,12 @@ void Solver::mend(std::vector<std::pair<std::int32_t, int>>& inadmissible) {
     std::sort(remaining.begin(), remaining.end());
     inadmissible = std::move(remaining);
   }
+}
+
+void Solver::note_troubled(std::int32_t cell, int k) {
+  troubled_ = true;
+  caution_->note(cell);
+  note_unphysical(k, cell);
 }
 
 void Solver::note_unphysical(int k, std::int32_t cell) {

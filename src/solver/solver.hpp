@@ -12,6 +12,7 @@
 #include "mesh/mesh.hpp"
 #include "mesh/mpi.hpp"
 #include "mesh/neighbour_exchange.hpp"
+#include "solver/caution.hpp"
 #include "solver/interfaces.hpp"
 #include "solver/kernels.hpp"
 #include "solver/reconstruction.hpp"
@@ -46,8 +47,10 @@ struct StepClock {
 
 /// How often the scheme had to help itself so far, on all ranks.
 struct RobustnessCounters {
+  std::int64_t redone = 0;    ///< steps that failed, and were taken again at first order there, or smaller
   double fallback_share = 0;  ///< of the cells with slopes, those whose states at faces would have been inadmissible
   std::int64_t mended = 0;    ///< inadmissible states averaged with a neighbour's
+  std::int64_t torn = 0;      ///< splinters before a void that took its pressure
   std::int64_t followed = 0;  ///< fragments that took a neighbour's state, summed over steps
 };
 
@@ -89,6 +92,10 @@ class Solver {
   void set_initial_state();
   void set_reference_states();
   void set_state(int k, std::int32_t cell, double alpha, const PhaseState& state, const Point& x);
+  void take_step(double until);
+  void save();
+  void restore();
+  void note_troubled(std::int32_t cell, int k);
   double sweep_first_order();
   double sweep_centred(double until);
   double step_to(double until, double stable_step) const;
@@ -102,6 +109,7 @@ class Solver {
   void book_boundaries(double dt);
   void choose_present(CellList& cells, const Phase& phase);
   void convert_owned(double dt);
+  void relax_splinters(std::vector<std::pair<std::int32_t, int>>& inadmissible);
   void mend(std::vector<std::pair<std::int32_t, int>>& inadmissible);
   void note_unphysical(int k, std::int32_t cell);
   void find_undefined_speed();
@@ -123,6 +131,7 @@ class Solver {
   std::optional<SharpInterface> sharp_;
   std::optional<Redistribution> redistribution_;  // of sharp interfaces
   std::optional<VolumeExchange> exchange_;
+  std::optional<Caution> caution_;
   std::unique_ptr<NeighbourExchange> halo_;
 
   std::vector<CellList> pure_cells_, mixed_cells_;  // per phase: owned cells to update in the present step
@@ -132,6 +141,7 @@ class Solver {
   CellList scratch_cells_;
   BadCells bad_;
   std::vector<std::pair<std::int32_t, int>> followers_;   // (cell, phase) of fragments without a state of their own
+  std::int64_t torn_ = 0;                                 // splinters relaxed to the void's pressure
   std::int64_t followed_ = 0;                             // of these, summed over steps
   std::vector<std::vector<std::vector<double>>> booked_;  // [phase][mass, momentum, energy][boundary face]
   std::string unphysical_;                                // this rank's report
@@ -140,6 +150,11 @@ class Solver {
   double time_ = 0;
   std::int64_t step_ = 0;
   double last_dt_ = 0;
+  int attempt_ = 0;                           // at the present step
+  bool troubled_ = false;                     // whether a state of this rank's is not admissible after it
+  std::int64_t redone_ = 0;                   // attempts that failed
+  std::vector<AlignedVector<double>> saved_;  // volume fractions and conserved quantities before the step
+  std::vector<std::pair<std::int32_t, int>> saved_followers_;
   double stable_step_ = 0;  // at cfl 1, by the signals of the last sweep; 0: none yet
   StepClock clock_;
 };

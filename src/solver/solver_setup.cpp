@@ -130,6 +130,8 @@ Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
   if (fields_.multiphase() && setup_.alpha_min == 0)
     exchange_.emplace(mpi_, mesh_, fields_, sharp ? sharp_exchange : diffuse_exchange);
 
+  caution_.emplace(mpi_, mesh_);
+
   std::size_t per_cell = fields_.multiphase() ? fields_.n_phases() : 0;
   for (const Phase& phase : fields_.phases) per_cell += phase.n_conserved();
   std::vector<std::size_t> capacity;
