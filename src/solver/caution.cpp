@@ -1,0 +1,59 @@
+#include "solver/caution.hpp"
+
+#include <algorithm>
+
+namespace cobasis {
+namespace {
+
+constexpr int rings = 2;               ///< of neighbours around a cell noted
+constexpr std::int64_t duration = 20;  ///< [steps]
+
+std::vector<std::size_t> one_per_cell(const Mesh& mesh) {
+  std::vector<std::size_t> values;
+  for (const Neighbour& neighbour : mesh.neighbours) values.push_back(neighbour.receive_count);
+  return values;
+}
+
+}  // namespace
+
+Caution::Caution(const Mpi& mpi, const Mesh& mesh)
+    : until_(mesh.n_cells(), 0), exchange_(mpi, mesh.neighbours, one_per_cell(mesh), 19) {}
+
+void Caution::spread(const Mesh& mesh, std::int64_t step) {
+  const std::int64_t until = step + duration;
+  for (const std::int32_t cell : noted_) until_[cell] = until;
+  noted_.clear();
+  for (int ring = 0; ring <= rings; ++ring) {
+    for (std::size_t i = 0; i < mesh.neighbours.size(); ++i) {
+      std::vector<double>& out = exchange_.outgoing(i);
+      out.clear();
+      for (const std::int32_t cell : mesh.neighbours[i].send) out.push_back(static_cast<double>(until_[cell]));
+    }
+    exchange_.start();
+    exchange_.finish();
+    for (std::size_t i = 0; i < mesh.neighbours.size(); ++i) {
+      const double* in = exchange_.incoming(i).data();
+      for (std::int32_t j = 0; j < mesh.neighbours[i].receive_count; ++j)
+        until_[mesh.neighbours[i].receive_first + j] = static_cast<std::int64_t>(*in++);
+    }
+    if (ring == rings) break;
+    const std::vector<std::int64_t> before = until_;
+    for (std::int32_t f = 0; f < mesh.first_boundary_face(); ++f) {
+      const std::int32_t left = mesh.left[f], right = mesh.right[f];
+      if (before[left] == until) until_[right] = until;
+      if (before[right] == until) until_[left] = until;
+    }
+  }
+  until_any_ = until;
+}
+
+void Caution::tell(Fields& fields, std::int64_t step) {
+  if (step >= until_any_) {
+    fields.cautious.clear();
+    return;
+  }
+  fields.cautious.resize(fields.n_all);
+  for (std::size_t cell = 0; cell < until_.size(); ++cell) fields.cautious[cell] = step < until_[cell] ? 1 : 0;
+}
+
+}  // namespace cobasis
