@@ -9,6 +9,9 @@ namespace {
 /// Below this volume fraction a phase is averaged. Stable at the whole cell's step needs about 0.6 of the CFL number.
 constexpr double least_donor = 0.03;  // what is small itself has no state to share
 constexpr double small_fraction = 0.5;
+/// What has only such neighbours, a corner of a simplex, is averaged with them after they have been averaged: as often
+/// as it takes to come from corner to edge and from edge to face.
+constexpr int remote_passes = 2;
 /// A negative volume may take away so much of the neighbour's share that their mean means nothing. The sum of both must
 /// exceed this part of the sum of magnitudes: then the mean leaves the range of the two states by half their difference
 /// at most.
@@ -85,7 +88,7 @@ void Redistribution::share_alpha(const Mesh& mesh, Fields& fields) {
 }
 
 /// The pairs about owned cells.
-void Redistribution::choose(const Mesh& mesh, const Faces& faces, const Fields& fields, int k, std::int32_t cell,
+bool Redistribution::choose(const Mesh& mesh, const Faces& faces, const Fields& fields, int k, std::int32_t cell,
                             double more_than) {
   const Phase& phase = fields.phases[k];
   std::int32_t donor = -1;
@@ -97,10 +100,8 @@ void Redistribution::choose(const Mesh& mesh, const Faces& faces, const Fields& 
     if (there > most || (donor >= 0 && there == most && mesh.global_id[other] < mesh.global_id[donor]))
       donor = other, most = there;
   }
-  if (donor >= 0)
-    pairs_.push_back({cell, donor, k, false, {}});
-  else
-    ++counters_.alone;
+  if (donor >= 0) pairs_.push_back({cell, donor, k, false, {}});
+  return donor >= 0;
 }
 
 /// Appends the pairs about halo cells whose donor is owned.
@@ -225,23 +226,33 @@ void Redistribution::take(const Mesh& mesh, const Faces& faces, Fields& fields, 
 void Redistribution::run(const Mesh& mesh, const Faces& faces, Fields& fields,
                          std::span<const std::int32_t> candidates) {
   pairs_.clear();
+  remote_.clear();
   share_alpha(mesh, fields);
   for (int k = 0; k < fields.n_phases(); ++k) {
     const Phase& phase = fields.phases[k];
     if (phase.is_void) continue;
     for (const std::int32_t cell : candidates)
       if (phase.alpha[cell] != 0 && phase.alpha[cell] < small_fraction)
-        choose(mesh, faces, fields, k, cell, std::max(least_donor, std::fabs(phase.alpha[cell])));
+        if (!choose(mesh, faces, fields, k, cell, std::max(least_donor, std::fabs(phase.alpha[cell]))))
+          remote_.emplace_back(cell, k);
   }
   counters_.merged += static_cast<std::int64_t>(pairs_.size());
   settle(mesh, faces, fields);
+  for (int pass = 0; pass < remote_passes; ++pass) {
+    pairs_.clear();
+    for (const auto& [cell, k] : remote_)
+      if (!choose(mesh, faces, fields, k, cell, std::fabs(fields.phases[k].alpha[cell])) && pass == 0)
+        ++counters_.alone;
+    if (pass == 0) counters_.merged += static_cast<std::int64_t>(pairs_.size());
+    settle(mesh, faces, fields);
+  }
 }
 
 void Redistribution::mend(const Mesh& mesh, const Faces& faces, Fields& fields,
                           std::span<const std::pair<std::int32_t, int>> volumes) {
   pairs_.clear();
   share_alpha(mesh, fields);
-  for (const auto& [cell, k] : volumes) choose(mesh, faces, fields, k, cell, 0);
+  for (const auto& [cell, k] : volumes) counters_.alone += !choose(mesh, faces, fields, k, cell, 0);
   counters_.mended += static_cast<std::int64_t>(pairs_.size());
   settle(mesh, faces, fields);
 }

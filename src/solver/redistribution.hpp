@@ -69,7 +69,7 @@ class Redistribution {
   };
 
   void share_alpha(const Mesh& mesh, Fields& fields);
-  void choose(const Mesh& mesh, const Faces& faces, const Fields& fields, int k, std::int32_t cell, double more_than);
+  bool choose(const Mesh& mesh, const Faces& faces, const Fields& fields, int k, std::int32_t cell, double more_than);
   void settle(const Mesh& mesh, const Faces& faces, Fields& fields);
   void share_choices(const Mesh& mesh);
   void average(const Mesh& mesh, const Fields& fields);
@@ -83,6 +83,7 @@ class Redistribution {
   std::vector<std::vector<std::int32_t>> asked_;  // per neighbour: pairs about owned cells with its cells
   std::vector<std::pair<std::int32_t, std::int32_t>> received_;  // per neighbour: its part of pairs_
   std::vector<Members> members_;                                 // per phase
+  std::vector<std::pair<std::int32_t, int>> remote_;             // (cell, phase) without a neighbour that has enough
   std::vector<std::pair<std::int32_t, int>> changed_;            // (cell, phase) in at least one pair
   RedistributionCounters counters_;
 };
