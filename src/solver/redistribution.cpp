@@ -9,9 +9,6 @@ namespace {
 /// Below this volume fraction a phase is averaged. Stable at the whole cell's step needs about 0.6 of the CFL number.
 constexpr double least_donor = 0.03;  // what is small itself has no state to share
 constexpr double small_fraction = 0.5;
-/// What has only such neighbours, a corner of a simplex, is averaged with them after they have been averaged: as often
-/// as it takes to come from corner to edge and from edge to face.
-constexpr int remote_passes = 2;
 /// A negative volume may take away so much of the neighbour's share that their mean means nothing. The sum of both must
 /// exceed this part of the sum of magnitudes: then the mean leaves the range of the two states by half their difference
 /// at most.
@@ -45,7 +42,9 @@ std::int32_t neighbour_at(const Mesh& mesh, const Faces& faces, std::int32_t cel
 }  // namespace
 
 Redistribution::Redistribution(const Mpi& mpi, const Mesh& mesh, const Fields& fields)
-    : alpha_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases(), 0), 16),
+    : mpi_(mpi),
+      remote_(mpi, mesh, fields, least_donor),
+      alpha_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases(), 0), 16),
       choices_(mpi, mesh.neighbours, capacities(mesh, choice_size * fields.n_phases(), 0), 17),
       shares_(mpi, mesh.neighbours,
               capacities(mesh, fields.n_phases() * (1 + most_conserved(fields)),
@@ -226,26 +225,28 @@ void Redistribution::take(const Mesh& mesh, const Faces& faces, Fields& fields, 
 void Redistribution::run(const Mesh& mesh, const Faces& faces, Fields& fields,
                          std::span<const std::int32_t> candidates) {
   pairs_.clear();
-  remote_.clear();
+  small_.clear();
+  bool remote = false;
   share_alpha(mesh, fields);
   for (int k = 0; k < fields.n_phases(); ++k) {
     const Phase& phase = fields.phases[k];
     if (phase.is_void) continue;
-    for (const std::int32_t cell : candidates)
-      if (phase.alpha[cell] != 0 && phase.alpha[cell] < small_fraction)
-        if (!choose(mesh, faces, fields, k, cell, std::max(least_donor, std::fabs(phase.alpha[cell]))))
-          remote_.emplace_back(cell, k);
+    for (const std::int32_t cell : candidates) {
+      const double alpha = phase.alpha[cell];
+      if (alpha == 0 || !(alpha < small_fraction)) continue;
+      const bool tiny = std::fabs(alpha) < least_donor;
+      if (tiny) small_.emplace_back(cell, k);
+      if (choose(mesh, faces, fields, k, cell, std::max(least_donor, std::fabs(alpha)))) continue;
+      if (tiny)
+        remote = true;
+      else
+        ++counters_.alone;
+    }
   }
   counters_.merged += static_cast<std::int64_t>(pairs_.size());
   settle(mesh, faces, fields);
-  for (int pass = 0; pass < remote_passes; ++pass) {
-    pairs_.clear();
-    for (const auto& [cell, k] : remote_)
-      if (!choose(mesh, faces, fields, k, cell, std::fabs(fields.phases[k].alpha[cell])) && pass == 0)
-        ++counters_.alone;
-    if (pass == 0) counters_.merged += static_cast<std::int64_t>(pairs_.size());
-    settle(mesh, faces, fields);
-  }
+  if (!mpi_.any(remote)) return;
+  counters_.alone += remote_.run(mesh, faces, fields, small_);
 }
 
 void Redistribution::mend(const Mesh& mesh, const Faces& faces, Fields& fields,

@@ -13,6 +13,7 @@
 #include "mesh/neighbour_exchange.hpp"
 #include "solver/faces.hpp"
 #include "solver/field.hpp"
+#include "solver/remote_volumes.hpp"
 
 namespace cobasis {
 
@@ -76,6 +77,8 @@ class Redistribution {
   void take(const Mesh& mesh, const Faces& faces, Fields& fields, int k, std::int32_t cell);
   Share share_of(const Fields& fields, int k, std::int32_t cell) const;
 
+  const Mpi& mpi_;
+  RemoteVolumes remote_;
   NeighbourExchange alpha_, choices_, shares_;
   std::vector<std::int32_t> neighbour_of_halo_;
   std::vector<Pair> pairs_;  // first about owned cells, then about halo cells
@@ -83,7 +86,7 @@ class Redistribution {
   std::vector<std::vector<std::int32_t>> asked_;  // per neighbour: pairs about owned cells with its cells
   std::vector<std::pair<std::int32_t, std::int32_t>> received_;  // per neighbour: its part of pairs_
   std::vector<Members> members_;                                 // per phase
-  std::vector<std::pair<std::int32_t, int>> remote_;             // (cell, phase) without a neighbour that has enough
+  std::vector<std::pair<std::int32_t, int>> small_;              // (cell, phase) with no state to share
   std::vector<std::pair<std::int32_t, int>> changed_;            // (cell, phase) in at least one pair
   RedistributionCounters counters_;
 };
