@@ -233,7 +233,8 @@ void SharpInterface::exchange_moments() {
 
 /// Whether the cell's arrays hold a state of the phase: its own, or the one with which it would arrive.
 bool SharpInterface::has_state(const Fields& fields, int k, std::int32_t cell) const {
-  return fields.phases[k].alpha[cell] > 0 || (knows_plane(cell) && fields.pure[cell] >= 0);
+  return fields.phases[k].alpha[cell] > 0 ||
+         std::ranges::any_of(planes_of_, [&](int m) { return valid(m, cell) && cells_[m][cell].ring > 1; });
 }
 
 /// Whether the state of a phase that the cell's arrays hold is another cell's.
