@@ -231,10 +231,14 @@ void SharpInterface::exchange_moments() {
   }
 }
 
-/// Whether the cell's arrays hold a state of the phase: its own, or the one with which it would arrive.
+/// Whether the cell's arrays hold a state of the phase: its own, or the one with which it would arrive, or would come
+/// back where less than nothing of it is left.
 bool SharpInterface::has_state(const Fields& fields, int k, std::int32_t cell) const {
-  return fields.phases[k].alpha[cell] > 0 ||
-         std::ranges::any_of(planes_of_, [&](int m) { return valid(m, cell) && cells_[m][cell].ring > 1; });
+  const double alpha = fields.phases[k].alpha[cell];
+  if (alpha > 0 || (knows_plane(cell) && fields.pure[cell] >= 0)) return true;
+  if (alpha == 0 || (k == rest_ && planes_of_.size() > 1)) return false;
+  const int of = k == rest_ ? planes_of_[0] : k;
+  return valid(of, cell) && cells_[of][cell].ring > 1;
 }
 
 /// Whether the state of a phase that the cell's arrays hold is another cell's.
