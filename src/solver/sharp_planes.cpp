@@ -20,11 +20,13 @@ Point normalised(const Point& a) { return (1 / length(a)) * a; }
 /// has nobody to share its state with is a film or a splinter thinner than a cell: a plane there would let waves cross
 /// it faster than the step can follow.
 void SharpInterface::find_health(Fields& fields) {
-  constexpr int reach = 3;
+  const int reach = hops_ == 1 ? 3 : hops_ == 2 ? 4 : 6;
   for (int k = 0; k < fields.n_phases(); ++k) {
     const auto& alpha = fields.phases[k].alpha;
     for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell)
-      health_[k][cell] = fields.phases[k].is_void || !(alpha[cell] > 0) || alpha[cell] >= 0.5 ? reach + 1 : 0;
+      health_[k][cell] = fields.phases[k].is_void || !(alpha[cell] > 0) || alpha[cell] >= 0.5
+                             ? static_cast<std::int8_t>(reach + 1)
+                             : 0;
   }
   for (int distance = 1; distance <= reach; ++distance) {
     for (int k = 0; k < fields.n_phases(); ++k) {
