@@ -153,11 +153,14 @@ std::int64_t RemoteVolumes::run(const Mesh& mesh, const Faces& faces, Fields& fi
       if (node.parent < mesh.n_owned) roots.emplace_back(node.parent, node.k);
       continue;
     }
-    // the parent of a halo cell: one of its neighbours here
-    for (const Neighbour& neighbour : mesh.neighbours)
-      if (node.cell >= neighbour.receive_first && node.cell < neighbour.receive_first + neighbour.receive_count)
-        for (const std::int32_t cell : neighbour.send)
-          if (mesh.global_id[cell] == node.parent_id) roots.emplace_back(cell, node.k);
+    for (const Neighbour& neighbour : mesh.neighbours) {
+      if (node.cell < neighbour.receive_first || node.cell >= neighbour.receive_first + neighbour.receive_count)
+        continue;
+      const auto parent = std::ranges::lower_bound(neighbour.send, node.parent_id, {},
+                                                   [&](std::int32_t cell) { return mesh.global_id[cell]; });
+      if (parent != neighbour.send.end() && mesh.global_id[*parent] == node.parent_id)
+        roots.emplace_back(*parent, node.k);
+    }
   }
   std::sort(roots.begin(), roots.end());
   roots.erase(std::unique(roots.begin(), roots.end()), roots.end());

@@ -58,6 +58,10 @@ class SharpInterface {
   void put_plane(const Fields& fields, int k, std::int32_t cell, const Point& n);
   Point mean_normal(int k, std::int32_t cell) const;
   static int hops_of(CellType type);
+  Moments& moments_for(std::int32_t cell);
+  Moments moments_of(std::int32_t cell) const {
+    return moments_at_[cell] < 0 ? Moments{} : moments_[moments_at_[cell]];
+  }
   void gather_moments(const Fields& fields, int k);
   Moments own_moments(const Fields& fields, int k, std::int32_t cell) const;
   void exchange_moments();
@@ -100,10 +104,11 @@ class SharpInterface {
 
   std::vector<std::int32_t> cut_cells_, mixed_cells_;  // owned cells of several phases, with planes and without
   std::vector<std::int32_t> frontier_, next_, near_faces_;
-  int hops_ = 1;                                    // the most of any cell, see hops_of
-  std::vector<Moments> moments_, farther_moments_;  // of the phase at hand, see gather_moments
-  std::vector<std::int32_t> moment_cells_;
-  std::vector<ContactList> contacts_;  // [l * n + m], l < m, the void last
+  int hops_ = 1;                                 // the most of any cell, see hops_of
+  std::vector<Moments> moments_, next_moments_;  // of the phase at hand, see gather_moments
+  std::vector<std::int32_t> moments_at_;         // per cell: where in moments_; -1: it has none
+  std::vector<std::int32_t> moment_cells_;       // owned cells that gather
+  std::vector<ContactList> contacts_;            // [l * n + m], l < m, the void last
   std::vector<std::vector<std::pair<std::int32_t, int>>> speed_users_;
   std::vector<std::vector<std::int8_t>> health_;     // [phase][cell]: see find_health
   std::vector<std::vector<std::int64_t>> followed_;  // [phase][cell]: the last step in which it was a follower

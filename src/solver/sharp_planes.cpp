@@ -131,12 +131,21 @@ SharpInterface::Moments SharpInterface::own_moments(const Fields& fields, int k,
   return moments;
 }
 
+/// Makes room.
+SharpInterface::Moments& SharpInterface::moments_for(std::int32_t cell) {
+  if (moments_at_[cell] < 0) {
+    moments_at_[cell] = static_cast<std::int32_t>(moments_.size());
+    moments_.emplace_back();
+  }
+  return moments_[moments_at_[cell]];
+}
+
 /// Moments of the cut cells within `hops_` faces, each as often as there are ways to it. A cell passes on what it
 /// knows of, except of interfaces that look the other way: those of the far side of a film.
 void SharpInterface::gather_moments(const Fields& fields, int k) {
   moment_cells_.clear();
-  moments_.resize(mesh_.n_cells());
-  farther_moments_.resize(mesh_.n_cells());
+  moments_.clear();
+  moments_at_.assign(mesh_.n_cells(), -1);
   const auto visit_neighbours = [&](std::int32_t cell, const auto& visit) {
     for_each_face(cell, [&](std::int32_t face, int side) {
       if (face < mesh_.first_boundary_face())
@@ -156,31 +165,35 @@ void SharpInterface::gather_moments(const Fields& fields, int k) {
   for (std::int32_t cell = mesh_.n_owned; cell < mesh_.n_cells(); ++cell) enlist_around(cell);
   std::ranges::sort(moment_cells_);
   moment_cells_.erase(std::unique(moment_cells_.begin(), moment_cells_.end()), moment_cells_.end());
-  const auto begin = [&](std::int32_t cell) { moments_[cell] = own_moments(fields, k, cell); };
+  const auto begin = [&](std::int32_t cell) { moments_for(cell) = own_moments(fields, k, cell); };
   for (const std::int32_t cell : moment_cells_) {
     begin(cell);
     visit_neighbours(cell, [&](std::int32_t other, const Point&) { begin(other); });
   }
   for (int hop = 1; hop <= hops_; ++hop) {
     if (hop > 1) exchange_moments();
+    next_moments_.clear();
     for (const std::int32_t cell : moment_cells_) {
-      Moments& sum = farther_moments_[cell] = moments_[cell];
-      if (is_cut(fields, k, cell) && hop > hops_of(mesh_.cell_type[cell])) continue;
-      Point towards = sum.n;
-      if (!is_cut(fields, k, cell))
-        visit_neighbours(cell, [&](std::int32_t other, const Point&) { towards = towards + moments_[other].n; });
-      visit_neighbours(cell, [&](std::int32_t other, const Point& delta) {
-        if (dot(towards, moments_[other].n) > 0) sum.add(moments_[other], delta);
-      });
+      Moments sum = moments_of(cell);
+      const bool cut = is_cut(fields, k, cell);
+      if (!cut || hop <= hops_of(mesh_.cell_type[cell])) {
+        Point towards = sum.n;
+        if (!cut)
+          visit_neighbours(cell, [&](std::int32_t other, const Point&) { towards = towards + moments_of(other).n; });
+        visit_neighbours(cell, [&](std::int32_t other, const Point& delta) {
+          if (const Moments there = moments_of(other); dot(towards, there.n) > 0) sum.add(there, delta);
+        });
+      }
+      next_moments_.push_back(sum);
     }
-    for (const std::int32_t cell : moment_cells_) moments_[cell] = farther_moments_[cell];
+    for (std::size_t i = 0; i < moment_cells_.size(); ++i) moments_for(moment_cells_[i]) = next_moments_[i];
   }
 }
 
 /// The normal turned to the plane that fits the sections of the planes around best, each of which lies on the interface
 /// even where its normal is rough. Exact for planes.
 Point SharpInterface::fitted_normal(int k, std::int32_t cell) const {
-  const Moments& m = moments_[cell];
+  const Moments m = moments_of(cell);
   const Point n = cells_[k][cell].plane.n;
   if (!(m.w > 0)) return n;
   Point t1{-n.y, n.x, 0}, t2{0, 0, 0};
@@ -215,9 +228,9 @@ void SharpInterface::exchange_moments() {
     std::vector<double>& out = exchange_.outgoing(i);
     out.clear();
     for (const std::int32_t cell : mesh_.neighbours[i].send) {
-      const bool known = std::ranges::binary_search(moment_cells_, cell) && moments_[cell].w > 0;
-      out.push_back(known);
-      if (known) numbers(moments_[cell], [&](double number) { out.push_back(number); });
+      Moments m = moments_of(cell);
+      out.push_back(m.w > 0);
+      if (m.w > 0) numbers(m, [&](double number) { out.push_back(number); });
     }
   }
   exchange_.start();
@@ -227,8 +240,10 @@ void SharpInterface::exchange_moments() {
     const Neighbour& neighbour = mesh_.neighbours[i];
     for (std::int32_t cell = neighbour.receive_first; cell < neighbour.receive_first + neighbour.receive_count;
          ++cell) {
-      moments_[cell] = {};
-      if (*in++ != 0) numbers(moments_[cell], [&](double& number) { number = *in++; });
+      const bool known = *in++ != 0;
+      if (!known && moments_at_[cell] < 0) continue;
+      Moments& m = moments_for(cell) = {};
+      if (known) numbers(m, [&](double& number) { number = *in++; });
     }
   }
 }
