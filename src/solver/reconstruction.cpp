@@ -48,6 +48,7 @@ Reconstruction::Reconstruction(const Mpi& mpi, const Mesh& mesh, const Faces& fa
       with_slopes_(mesh.n_owned),
       beside_gaps_(mesh.n_owned),
       without_(mesh.n_owned),
+      flat_(mesh.n_owned + pack_width, 0.0),
       halo_faces_(shared_faces(mesh)),
       exchange_(mpi, mesh.neighbours, capacities(halo_faces_, kernels), 14) {
   if (stencil_.averages) {
@@ -81,7 +82,10 @@ Reconstruction::Reconstruction(const Mpi& mpi, const Mesh& mesh, const Faces& fa
   for (std::size_t i = 0; i < boundaries.size(); ++i) {
     const BoundaryGroup& group = mesh.boundary_groups[i];
     for (std::int32_t face = group.first; face < group.last; ++face) {
-      if (std::holds_alternative<Transmissive>(boundaries[i])) transmissive_.push_back(face);
+      if (std::holds_alternative<Transmissive>(boundaries[i])) {
+        transmissive_.push_back(face);
+        if (const std::int32_t cell = mesh.left[face]; stencil_.averages_in(cell)) flat_[cell] = 1;
+      }
       if (!std::holds_alternative<Inflow>(boundaries[i])) continue;
       const std::int32_t ghost = mesh.ghost_of(face);
       for (std::size_t k = 0; k < fields.phases.size(); ++k) {
@@ -109,7 +113,7 @@ void Reconstruction::select(const Group& group, const Fields& fields, int k, int
   for (std::int32_t i = 0; i < cells.size(); i += pack_width) {
     const Indices<Pack> at = load_indices<Pack>(&cells[i]);
     const unsigned valid = cells.size() - i >= pack_width ? (1u << pack_width) - 1 : (1u << (cells.size() - i)) - 1;
-    unsigned present = valid, sloping = valid, some = valid;
+    unsigned present = valid, sloping = valid & ~positive_lanes(gather<Pack>(flat_.data(), at)), some = sloping;
     if (fields.multiphase()) {
       const Pack own = gather<Pack>(alpha.data(), at);
       Pack least = own;

@@ -39,7 +39,10 @@ class Reconstruction {
   Stencil stencil_;
   std::vector<PhaseKernels> kernels_;
   Group inside_, beside_halo_;
-  CellList with_slopes_, beside_gaps_, without_;       // scratch
+  CellList with_slopes_, beside_gaps_, without_;  // scratch
+  /// 1 for simplices at transmissive faces: what flows in there is what the cell makes of its neighbours; with
+  /// gradients over so few of them noise would grow.
+  AlignedVector<double> flat_;
   std::vector<std::int32_t> transmissive_;             // faces whose right state is their left one
   std::vector<std::vector<std::int32_t>> halo_faces_;  // per neighbour, in an order that both know: 2 face + own side
   NeighbourExchange exchange_;

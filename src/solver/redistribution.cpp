@@ -42,7 +42,9 @@ std::int32_t neighbour_at(const Mesh& mesh, const Faces& faces, std::int32_t cel
 }  // namespace
 
 Redistribution::Redistribution(const Mpi& mpi, const Mesh& mesh, const Fields& fields)
-    : alpha_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases(), 0), 16),
+    : mpi_(mpi),
+      remote_(mpi, mesh, fields, least_donor),
+      alpha_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases(), 0), 16),
       choices_(mpi, mesh.neighbours, capacities(mesh, choice_size * fields.n_phases(), 0), 17),
       shares_(mpi, mesh.neighbours,
               capacities(mesh, fields.n_phases() * (1 + 2 * most_conserved(fields)),
@@ -85,7 +87,7 @@ void Redistribution::share_alpha(const Mesh& mesh, Fields& fields) {
 }
 
 /// The pairs about owned cells.
-void Redistribution::choose(const Mesh& mesh, const Faces& faces, const Fields& fields, int k, std::int32_t cell,
+bool Redistribution::choose(const Mesh& mesh, const Faces& faces, const Fields& fields, int k, std::int32_t cell,
                             double more_than) {
   const Phase& phase = fields.phases[k];
   std::int32_t donor = -1;
@@ -97,10 +99,8 @@ void Redistribution::choose(const Mesh& mesh, const Faces& faces, const Fields& 
     if (there > most || (donor >= 0 && there == most && mesh.global_id[other] < mesh.global_id[donor]))
       donor = other, most = there;
   }
-  if (donor >= 0)
-    pairs_.push_back({cell, donor, k});
-  else
-    ++counters_.alone;
+  if (donor >= 0) pairs_.push_back({cell, donor, k});
+  return donor >= 0;
 }
 
 /// Appends the pairs about halo cells whose donor is owned.
@@ -295,23 +295,35 @@ void Redistribution::take(const Mesh& mesh, const Faces& faces, Fields& fields, 
 void Redistribution::run(const Mesh& mesh, const Faces& faces, Fields& fields,
                          std::span<const std::int32_t> candidates) {
   pairs_.clear();
+  small_.clear();
+  bool remote = false;
   share_alpha(mesh, fields);
   for (int k = 0; k < fields.n_phases(); ++k) {
     const Phase& phase = fields.phases[k];
     if (phase.is_void) continue;
-    for (const std::int32_t cell : candidates)
-      if (phase.alpha[cell] != 0 && phase.alpha[cell] < small_fraction)
-        choose(mesh, faces, fields, k, cell, std::max(least_donor, std::fabs(phase.alpha[cell])));
+    for (const std::int32_t cell : candidates) {
+      const double alpha = phase.alpha[cell];
+      if (alpha == 0 || !(alpha < small_fraction)) continue;
+      const bool tiny = std::fabs(alpha) < least_donor;
+      if (tiny) small_.emplace_back(cell, k);
+      if (choose(mesh, faces, fields, k, cell, std::max(least_donor, std::fabs(alpha)))) continue;
+      if (tiny)
+        remote = true;
+      else
+        ++counters_.alone;
+    }
   }
   counters_.merged += static_cast<std::int64_t>(pairs_.size());
   settle(mesh, faces, fields, small_fraction);
+  if (!mpi_.any(remote)) return;
+  counters_.alone += remote_.run(mesh, faces, fields, small_);
 }
 
 void Redistribution::mend(const Mesh& mesh, const Faces& faces, Fields& fields,
                           std::span<const std::pair<std::int32_t, int>> volumes) {
   pairs_.clear();
   share_alpha(mesh, fields);
-  for (const auto& [cell, k] : volumes) choose(mesh, faces, fields, k, cell, 0);
+  for (const auto& [cell, k] : volumes) counters_.alone += !choose(mesh, faces, fields, k, cell, 0);
   counters_.mended += static_cast<std::int64_t>(pairs_.size());
   settle(mesh, faces, fields, std::numeric_limits<double>::infinity());
 }

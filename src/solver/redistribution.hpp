@@ -13,6 +13,7 @@
 #include "mesh/neighbour_exchange.hpp"
 #include "solver/faces.hpp"
 #include "solver/field.hpp"
+#include "solver/remote_volumes.hpp"
 
 namespace cobasis {
 
@@ -73,7 +74,7 @@ class Redistribution {
   };
 
   void share_alpha(const Mesh& mesh, Fields& fields);
-  void choose(const Mesh& mesh, const Faces& faces, const Fields& fields, int k, std::int32_t cell, double more_than);
+  bool choose(const Mesh& mesh, const Faces& faces, const Fields& fields, int k, std::int32_t cell, double more_than);
   void settle(const Mesh& mesh, const Faces& faces, Fields& fields, double target);
   void share_choices(const Mesh& mesh);
   void average(const Mesh& mesh, const Faces& faces, const Fields& fields);
@@ -86,6 +87,8 @@ class Redistribution {
                                                   const Pair& pair) const;
   Share share_of(const Fields& fields, int k, std::int32_t cell, double fraction) const;
 
+  const Mpi& mpi_;
+  RemoteVolumes remote_;
   NeighbourExchange alpha_, choices_, shares_;
   std::vector<std::int32_t> neighbour_of_halo_;
   std::vector<Pair> pairs_;  // first about owned cells, then about halo cells
@@ -93,6 +96,7 @@ class Redistribution {
   std::vector<std::vector<std::int32_t>> asked_;  // per neighbour: pairs about owned cells with its cells
   std::vector<std::pair<std::int32_t, std::int32_t>> received_;  // per neighbour: its part of pairs_
   std::vector<Members> members_;                                 // per phase
+  std::vector<std::pair<std::int32_t, int>> small_;              // (cell, phase) with no state to share
   std::vector<std::pair<std::int32_t, int>> changed_;            // (cell, phase) in at least one pair
   RedistributionCounters counters_;
 };

@@ -43,12 +43,28 @@ class SharpInterface {
                        ///< plane for itself; valid if step is the present
     std::int64_t step = -1;  ///< in which it was placed
   };
+  /// Where the sections of planes around a cell lie: sums of weight times 1, r and r r, r from the cell's centroid, and
+  /// times the normals.
+  struct Moments {
+    double w = 0;
+    Point r{0, 0, 0}, n{0, 0, 0};
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+    void add(const Moments& other, const Point& delta);  ///< `delta`: to the other cell's centroid
+  };
   bool is_cut(const Fields& fields, int k, std::int32_t cell) const;
   bool knows_plane(std::int32_t cell) const;
   bool valid(int k, std::int32_t cell) const { return cells_[k][cell].step == step_; }
   Point gradient(const Faces& faces, const Fields& fields, int k, std::int32_t cell) const;
   void put_plane(const Fields& fields, int k, std::int32_t cell, const Point& n);
   Point mean_normal(int k, std::int32_t cell) const;
+  static int hops_of(CellType type);
+  Moments& moments_for(std::int32_t cell);
+  Moments moments_of(std::int32_t cell) const {
+    return moments_at_[cell] < 0 ? Moments{} : moments_[moments_at_[cell]];
+  }
+  void gather_moments(const Fields& fields, int k);
+  Moments own_moments(const Fields& fields, int k, std::int32_t cell) const;
+  void exchange_moments();
   Point fitted_normal(int k, std::int32_t cell) const;
   void exchange(Fields& fields);
   void exchange_blends();
@@ -64,6 +80,7 @@ class SharpInterface {
   bool has_state(const Fields& fields, int k, std::int32_t cell) const;
   void run_speeds(Fields& fields);
   double blend_of(const Fields& fields, int k, std::int32_t cell, double dt) const;
+  double left_weight(const Faces& faces, const Fields& fields, std::int32_t face) const;
   double side_fraction(const Fields& fields, int k, std::int32_t face, int side, double dt) const;
   void find_health(Fields& fields);
   bool has_planes(const Fields& fields, std::int32_t cell) const;
@@ -87,7 +104,11 @@ class SharpInterface {
 
   std::vector<std::int32_t> cut_cells_, mixed_cells_;  // owned cells of several phases, with planes and without
   std::vector<std::int32_t> frontier_, next_, near_faces_;
-  std::vector<ContactList> contacts_;  // [l * n + m], l < m, the void last
+  int hops_ = 1;                                 // the most of any cell, see hops_of
+  std::vector<Moments> moments_, next_moments_;  // of the phase at hand, see gather_moments
+  std::vector<std::int32_t> moments_at_;         // per cell: where in moments_; -1: it has none
+  std::vector<std::int32_t> moment_cells_;       // owned cells that gather
+  std::vector<ContactList> contacts_;            // [l * n + m], l < m, the void last
   std::vector<std::vector<std::pair<std::int32_t, int>>> speed_users_;
   std::vector<std::vector<std::int8_t>> health_;     // [phase][cell]: see find_health
   std::vector<std::vector<std::int64_t>> followed_;  // [phase][cell]: the last step in which it was a follower

@@ -19,7 +19,8 @@ struct Stencil {
   /// Where cells are simplices: gradient of a cell + sum over entries of average_j (gradient_j - gradient). Least
   /// squares over the few faces of a tetrahedron alone makes an unstable scheme.
   AlignedVector<double> average;
-  bool averages = false;                  ///< whether any cell of any rank needs that
+  bool averages = false;  ///< whether any cell of any rank needs that
+  bool averages_in(std::int32_t owned_cell) const;
   AlignedVector<double> to_face[3];       ///< from the cell's centroid to those of its faces [m]
   AlignedVector<double> mirror;           ///< 2 where the face is a mirror: its normal turns the values, else 0
   AlignedVector<double> tolerance;        ///< per cell: (size of the cell / size of the domain)^(3/2)

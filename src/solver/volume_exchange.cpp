@@ -128,7 +128,8 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
     if (phase != k && alpha(phase, cell) > alpha(j, cell)) j = phase;
   const double own = alpha(k, cell), volume = own * fields.volume[cell];
 
-  std::int32_t donor = -1, richest = -1;
+  std::int32_t donor = -1, richest = -1, ahead = -1;
+  double most_ahead = 0;
   const auto better = [&](std::int32_t candidate, std::int32_t than) {
     if (than < 0) return true;
     const double a = alpha(k, candidate), b = alpha(k, than);
@@ -139,7 +140,14 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
     const std::int32_t face = entry >> 1;
     if (face >= mesh.first_boundary_face()) continue;
     const std::int32_t d = entry & 1 ? faces.left[face] : faces.right[face];
-    if (d == cell || !(alpha(k, d) > own)) continue;
+    if (d == cell) continue;
+    if (const Phase& carrier = fields.phases[j]; !carrier.is_void) {
+      double flow = carrier.conserved[1][cell] * faces.nx[face] + carrier.conserved[2][cell] * faces.ny[face];
+      if (fields.dimension == 3) flow += carrier.conserved[3][cell] * faces.nz[face];
+      flow *= (entry & 1 ? -1 : 1) * faces.area[face];
+      if (flow > most_ahead) ahead = d, most_ahead = flow;
+    }
+    if (!(alpha(k, d) > own)) continue;
     if (better(d, richest)) richest = d;
     if (!(alpha(k, d) > std::fabs(own))) continue;
     if (forced && alpha(k, d) < least_to_give_) continue;  // what is inadmissible needs a healthy partner
@@ -148,6 +156,8 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
     if (has(left * fields.volume[d], std::fabs(volume), fields.volume[d]) && better(d, donor)) donor = d;
   }
   if (volume < 0 && !has(alpha(j, cell) * fields.volume[cell], -volume, fields.volume[cell])) donor = -1;
+  // what stays behind where no neighbour has the phase any more follows it
+  if (richest < 0) richest = ahead;
   const bool dust_only = donor < 0 && std::fabs(own) < dust_threshold && richest >= 0;
   if (dust_only) donor = richest;
   if (donor < 0) {

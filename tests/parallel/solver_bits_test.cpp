@@ -123,6 +123,28 @@ TEST_CASE("sharp interfaces of second order give the same bits on any number of 
   check_bits_of_text(60, "disc in void", second_order + triangles + disc_in_void);
 }
 
+TEST_CASE("a sharp contact between tetrahedra gives the same bits on any number of ranks") {
+  check_bits_of_text(60, "bodies that meet", second_order + tetrahedra + R"([phase.copper]
+material = "copper"
+[phase.aluminium]
+material = "aluminium"
+[[region]]
+shape = "everywhere"
+fill = "aluminium"
+pressure = 1e5
+velocity = [-300, 50, 0]
+[[region]]
+shape = "half_space"
+point = [0.45, 0.5, 0.5]
+normal = [-0.8, -0.4, -0.2]
+fill = "copper"
+pressure = 1e5
+velocity = [400, -50, 0]
+[boundary]
+"*" = "transmissive"
+)");
+}
+
 TEST_CASE("the droplet with a sharp surface gives the same bits on any number of ranks") {
   check_bits(100, "droplet", {set_second_order, {"mesh_parameters.h", "1e-3"}});
 }

@@ -87,6 +87,22 @@ TEST_CASE("an impact reaches the exact stress and velocity within 0.7 % on irreg
       7e-3);
 }
 
+TEST_CASE("an impact with a sharp contact reaches the exact stress and velocity within 0.1 % on simplices") {
+  const int order = GENERATE(1, 2);
+  CAPTURE(order);
+  const Changes sharp{{"scheme.order", std::to_string(order)}, {"scheme.interface", "\"sharp\""}};
+  const Changes tetrahedra{{"mesh", "\"../meshes/tube_space.geo\""},
+                           {"mesh_parameters", "{ n = 125, element = 4 }"},
+                           {"boundary.back", "symmetry"},
+                           {"boundary.front", "symmetry"}};
+  check_plateau(run_impact(Changes{{"mesh_parameters", "{ n = 500, element = 3 }"}} + sharp), 1e-3);
+  check_plateau(run_impact(Changes{{"mesh", "\"../meshes/box.geo\""},
+                                   {"mesh_parameters", "{ n = 250, height = 0.016, element = 3 }"}} +
+                           sharp),
+                1e-3);
+  check_plateau(run_impact(tetrahedra + sharp), 1e-3);
+}
+
 TEST_CASE("an impact on 500 cells is as accurate as an independent first-order implementation") {
   const Table exact = read_table("impact.csv"), errors = read_table("impact_errors.csv");
   const bool in_space = GENERATE(false, true);

@@ -68,10 +68,11 @@ velocity = )" + velocity(50) +
                     scene, [&](auto i) { return along(cu, i) - along(al, i); }, contact)};
 }
 
-void check_slip(const Slip& slip) {
+/// 1 MPa is 2e-4 of what the slip does to the pressure where faces are oblique to the contact.
+void check_slip(const Slip& slip, double pressure = 1) {
   CAPTURE(slip.pressure, slip.lost);
-  CHECK(slip.pressure < 0.3e6);
-  CHECK(std::fabs(slip.lost) < 1);
+  CHECK(slip.pressure < pressure);
+  CHECK(std::fabs(slip.lost) < 1e-3);
 }
 
 Slip slip_in_plane(double degrees, int element, int n, double end_time = 1e-4) {
@@ -92,29 +93,31 @@ TEST_CASE("solids slide without loss across quadrilaterals oblique to their shar
 }
 TEST_CASE("solids slide without loss across triangles oblique to their sharp contact") {
   const double degrees = GENERATE(15.0, 30.0);
-  CAPTURE(degrees);
-  check_slip(slip_in_plane(degrees, 3, 100));
+  const int n = GENERATE(50, 100);
+  CAPTURE(degrees, n);
+  check_slip(slip_in_plane(degrees, 3, n));
 }
 namespace {
 
-Slip slip_in_space(int element) {
+Slip slip_in_space(int element, int n_cells) {
   const double length = std::sqrt(1 + 0.25 + 0.0625);
   const Point n{1 / length, 0.5 / length, 0.25 / length};
   const double side = std::sqrt(n.x * n.x + n.y * n.y);
   return slip_across(n, {-n.y / side, n.x / side, 0},
                      fmt::format("mesh = \"@box_space.geo\"\nmesh_parameters = {{ length = 2, height = 2, width = 2, n "
-                                 "= 16, element = {} }}",
-                                 element),
+                                 "= {}, element = {} }}",
+                                 n_cells, element),
                      5e-5);
 }
 
 }  // namespace
 
-TEST_CASE("solids slide without loss across hexahedra oblique to their sharp contact") { check_slip(slip_in_space(8)); }
-// The normals of the planes do not settle as well as elsewhere: the pressure is 1 MPa off, the slip is kept.
-TEST_CASE("solids keep their slip across tetrahedra oblique to their sharp contact") {
-  const Slip slip = slip_in_space(4);
-  CAPTURE(slip.pressure, slip.lost);
-  CHECK(slip.pressure < 2e6);
-  CHECK(std::fabs(slip.lost) < 1);
+TEST_CASE("solids slide without loss across hexahedra oblique to their sharp contact") {
+  check_slip(slip_in_space(8, 16));
+}
+// A fan of tetrahedra that a contact has just reached holds volumes of 1e-8 of a cell, and round-off in them is seen.
+TEST_CASE("solids slide without loss across tetrahedra oblique to their sharp contact") {
+  const int n = GENERATE(12, 16);
+  CAPTURE(n);
+  check_slip(slip_in_space(4, n), 1e3);
 }

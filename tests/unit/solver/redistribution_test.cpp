@@ -191,3 +191,25 @@ TEST_CASE("a negative volume takes the state of its neighbourhood, unless it nea
     cancel.check({3, 1});
   }
 }
+
+TEST_CASE("small volumes with only small ones around them have one state with the nearest cell that has enough") {
+  const std::vector<double> alpha{1, 0.02, 1e-3, 1e-5, 0}, Q{5, 7, 100, -3, 0};
+  Row row({0, 1, 2, 3, 4, 5}, alpha, Q);
+  const RedistributionCounters counters = row.run();
+  double volume = 0, sum = 0;
+  for (std::size_t i = 0; i < alpha.size(); ++i) volume += alpha[i], sum += alpha[i] * Q[i];
+  row.check(std::vector<double>(4, sum / volume));
+  CHECK(counters.alone == 0);
+}
+TEST_CASE("a small volume too far from a cell that has enough stays alone") {
+  const std::vector<double> Q{5, 5, 5, 5, 5, 40, 60};
+  Row row({0, 1, 2, 3, 4, 5, 6, 7}, {1, 2e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}, Q);
+  const RedistributionCounters counters = row.run();
+  row.check(Q);
+  CHECK(counters.alone == 2);
+}
+TEST_CASE("a negative volume far from the others joins their state without spoiling it") {
+  Row row({0, 1, 2, 3, 4}, {1, 0.02, 1e-3, -1e-5}, {5, 5, 5, 300});
+  row.run();
+  row.check(std::vector<double>(4, (1.021 * 5 - 1e-5 * 300) / (1.021 - 1e-5)));
+}
