@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "app/integrals.hpp"
 #include "measures.hpp"
 
 using namespace cobasis;
@@ -75,10 +76,12 @@ top = "wall"
   CHECK(change.cobasis < 1e-13);
 }
 
+// (Sharp interfaces on triangles, in a plane scene as well: small volumes of gas beside a solid make round-off grow.)
 TEST_CASE("pressure and velocity stay uniform across a ball that a gas, or a void, carries along the axis") {
   const std::string element = GENERATE("3", "4"), order = GENERATE("1", "2"),
-                    interface = GENERATE("diffuse", "compressed"), around = GENERATE("air", "void");
+                    interface = GENERATE("diffuse", "compressed", "sharp"), around = GENERATE("air", "void");
   CAPTURE(element, order, interface, around);
+  if (element == "3" && interface == "sharp") return;
   const bool gas = around == "air";
   Scene scene = make_scene(scheme(order, interface) + cylinder(element, 20) + R"([phase.ball]
 material = "aluminium"
@@ -108,6 +111,58 @@ top = "wall"
   CHECK(change.velocity < 1e-7);
   CHECK(change.pressure < 1);
   CHECK(change.cobasis < 1e-11);
+}
+
+TEST_CASE("totals are those of the whole body, for cones and balls that cut cells too") {
+  const std::string element = GENERATE("3", "4");
+  CAPTURE(element);
+  const auto filled = [&](const std::string& shape) {
+    return make_scene(scheme("1") + cylinder(element, 10, "0.5") + "[phase.body]\nmaterial = \"water\"\n" +
+                          "[phase.around]\nvoid = { pressure = 1e5 }\n[[region]]\nshape = \"everywhere\"\n" +
+                          "fill = \"around\"\n[[region]]\n" + shape + R"(fill = "body"
+pressure = 1e5
+velocity = [3.0, "y"]
+[boundary]
+bottom = "axis"
+"*" = "wall"
+)",
+                      ranks());
+  };
+  // x + 2 y < 0.7, of base radius 0.35 and height 0.7; moment of inertia of a cone 3/10 m R^2
+  const Scene cone = filled("shape = \"half_space\"\npoint = [0.7, 0.0]\nnormal = [-1.0, -2.0]\n");
+  const double volume = M_PI * 0.35 * 0.35 * 0.7 / 3, mass = 1000 * volume;
+  CHECK(total(*cone.solver, "volume.body") == Approx(volume).epsilon(1e-12));
+  CHECK(total(*cone.solver, "volume.around") == Approx(M_PI * 0.25 - volume).epsilon(1e-12));
+  CHECK(total(*cone.solver, "mass.body") == Approx(mass).epsilon(1e-12));
+  CHECK(total(*cone.solver, "momentum.body.x") == Approx(3 * mass).epsilon(1e-12));
+  CHECK(total(*cone.solver, "kinetic.body") == Approx(4.5 * mass + 0.15 * mass * 0.35 * 0.35).epsilon(2e-3));
+  const Scene ball = filled("shape = \"sphere\"\ncenter = [0.5, 0.0]\nradius = 0.4\n");
+  CHECK(total(*ball.solver, "volume.body") == Approx(4 * M_PI / 3 * 0.064).epsilon(1e-6));
+  const Scene torus = filled("shape = \"sphere\"\ncenter = [0.5, 0.3]\nradius = 0.15\n");
+  CHECK(total(*torus.solver, "volume.body") == Approx(2 * M_PI * 0.3 * M_PI * 0.0225).epsilon(1e-6));
+}
+
+TEST_CASE("the radius that holds a fraction of a cylinder's volume is that of the formula") {
+  const std::string fraction = GENERATE("0.2", "0.5", "0.95");
+  CAPTURE(fraction);
+  Scene scene = make_case("droplet_axisymmetric", {{"integral.1.quantile.fraction", fraction}}, ranks());
+  Integrals integrals(scene.setup.integrals, Geometry::axisymmetric, scene.mesh, ranks());
+  const std::vector<double> values = integrals.evaluate(scene.solver->snapshot());
+  CHECK(values.at(0) == Approx(6e-3).epsilon(2e-3));  // where neighbours' means interpolate to 1/2
+  CHECK(values.at(1) == Approx(6e-3 * std::sqrt(std::stod(fraction))).epsilon(1e-9));
+}
+
+TEST_CASE("the axisymmetric droplet spreads as the one in space does") {
+  const Changes coarse{{"mesh_parameters", "{ h = 0.8e-3 }"}, {"end_time", "1e-3"}};
+  const auto radius = [&](const std::string& name) {
+    Scene scene = make_case(name, coarse, ranks());
+    scene.run();
+    Integrals integrals(scene.setup.integrals, geometry_of(scene.mesh), scene.mesh, ranks());
+    return integrals.evaluate(scene.solver->snapshot()).at(1);
+  };
+  const double flat = radius("droplet_axisymmetric"), space = radius("droplet");
+  INFO("95 % of the volume within " << 1e3 * flat << " mm, in space " << 1e3 * space << " mm");
+  CHECK(flat == Approx(space).epsilon(0.02));
 }
 
 namespace {
