@@ -3,7 +3,8 @@
 
     render_droplet.py DIR/droplet.pvd PICTURE.png
 
-reads the output of cases/droplet.toml: a quarter of the body, at x, y >= 0 on a wall at z = 0. Needs a display; without
+reads the output of cases/droplet.toml: a quarter of the body, at x, y >= 0 on a wall at z = 0; or that of
+cases/droplet_axisymmetric.toml: half of the meridian plane, the wall at x = 0, the axis at y = 0. Needs a display; without
 one: xvfb-run -a -s '-screen 0 1280x1024x24 -noreset' render_droplet.py ...
 """
 import argparse
@@ -56,9 +57,18 @@ def result_of(algorithm):
     return algorithm.GetOutput()
 
 
+def is_meridian(grid):
+    """Whether it is a part of the plane y = 0 alone, see without_seams."""
+    bounds = grid.GetBounds()
+    return bounds[2] == bounds[3]
+
+
 def without_seams(grid):
-    """The grid with one point where the pieces of several ranks have one each; no data."""
+    """The grid with one point where the pieces of several ranks have one each; no data. Half of a meridian plane comes to
+    stand where that of a body in space does."""
     corners, joined = numpy.unique(vtk_to_numpy(grid.GetPoints().GetData()), axis=0, return_inverse=True)
+    if not corners[:, 2].any():
+        corners = corners[:, [1, 2, 0]].copy()
     points = vtk.vtkPoints()
     points.SetData(numpy_to_vtk(corners, deep=True))
     ids = joined[vtk_to_numpy(grid.GetCells().GetConnectivityArray())]
@@ -123,22 +133,32 @@ def surface_of(grid):
     contour.SetInputData(grid)
     contour.SetValue(0, 0.5)
     contour.ComputeNormalsOff()
+    if is_meridian(grid):
+        turned = vtk.vtkRotationalExtrusionFilter()
+        turned.SetInputConnection(contour.GetOutputPort())
+        turned.SetResolution(120)
+        body = result_of(turned)
+    else:
+        body = mirrored(result_of(contour), "XY")
     normals = vtk.vtkPolyDataNormals()
-    normals.SetInputData(mirrored(result_of(contour), "XY"))
+    normals.SetInputData(body)
     normals.SplittingOff()
     return result_of(normals)
 
 
 def meridian_of(grid):
     """The plane y = 0 and its line alpha = 0.5."""
-    bounds = grid.GetBounds()
-    plane = vtk.vtkPlane()
-    plane.SetNormal(0, 1, 0)
-    plane.SetOrigin(0, 1e-6 * (bounds[3] - bounds[2]), 0)
-    cut = vtk.vtkCutter()
-    cut.SetInputData(grid)
-    cut.SetCutFunction(plane)
-    both = mirrored(result_of(cut), "X")
+    half = grid
+    if not is_meridian(grid):
+        bounds = grid.GetBounds()
+        plane = vtk.vtkPlane()
+        plane.SetNormal(0, 1, 0)
+        plane.SetOrigin(0, 1e-6 * (bounds[3] - bounds[2]), 0)
+        cut = vtk.vtkCutter()
+        cut.SetInputData(grid)
+        cut.SetCutFunction(plane)
+        half = result_of(cut)
+    both = mirrored(half, "X")
     line = vtk.vtkContourFilter()
     line.SetInputData(both)
     line.SetValue(0, 0.5)

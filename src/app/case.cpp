@@ -95,11 +95,6 @@ Setup read_case(const std::string& file, const CaseOverrides& overrides) {
   read_mesh_keys(top, reading);
   read_phases(top, reading);
   read_contacts(top, reading);
-  if (reading.setup.scene == Geometry::axisymmetric && reading.setup.phases.size() > 1 &&
-      reading.setup.scheme.interface == InterfaceTreatment::sharp)
-    reading.mistakes.add(top.where("scene"),
-                         "scene = \"axisymmetric\" with sharp interfaces; allowed: interface = "
-                         "\"diffuse\" or \"compressed\" in [scheme]");
   read_regions(top, reading);
   read_boundaries(top, reading);
   read_output(top, reading);

@@ -86,7 +86,7 @@ std::vector<KeyTable> top_level() {
          .words = {"plane", "axisymmetric", "space"},
          .fallback = "space for a mesh with volume cells, else plane",
          .meaning = "axisymmetric: x is along the axis, y >= 0 the distance from it, stress.zz that of the hoop, "
-                    "totals are the whole body's; no sharp interfaces"},
+                    "totals are the whole body's"},
         {.key = "end_time", .unit = "s", .range = positive, .required = true, .meaning = "the run ends here"},
         {.key = "cfl",
          .unit = "-",
@@ -223,7 +223,7 @@ void add_regions(std::vector<KeyTable>& tables) {
        {{.key = "low", .kind = KeyKind::point, .unit = "m", .required = true, .meaning = "smallest coordinates"},
         {.key = "high", .kind = KeyKind::point, .unit = "m", .required = true, .meaning = "largest coordinates"}}},
       {"[[region]] shape = sphere",
-       "a disc in a plane",
+       "a disc in a plane; in an axisymmetric scene a ball or, off the axis, a torus",
        {{.key = "center", .kind = KeyKind::point, .unit = "m", .required = true, .meaning = "center"}, radius}},
       {"[[region]] shape = cylinder", "finite; space only", {from_point, to_point, radius}},
       {"[[region]] shape = physical_group",

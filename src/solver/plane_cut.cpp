@@ -278,6 +278,13 @@ FaceOutline outline(const Mesh& mesh, std::int32_t cell, int local, const Point&
   FaceOutline result;
   result.size = face.size;
   for (int i = 0; i < face.size; ++i) result.corner[i] = mesh.nodes[nodes[face.corner[i]]] - center;
+  if (mesh.axisymmetric) {
+    const Point &a = mesh.nodes[nodes[face.corner[0]]], &b = mesh.nodes[nodes[face.corner[1]]];
+    if (a.y == 0 && b.y == 0) return result;
+    result.size = 4;
+    result.corner[2] = result.corner[1] + Point{0, 0, b.y};
+    result.corner[3] = result.corner[0] + Point{0, 0, a.y};
+  }
   return result;
 }
 
@@ -286,11 +293,16 @@ FaceOutline outline(const Mesh& mesh, std::int32_t cell, int local, const Point&
 CellCorners corners_of(const Mesh& mesh, std::int32_t cell) {
   CellCorners result;
   result.type = mesh.cell_type[cell];
+  result.is_ring = mesh.axisymmetric;
+  if (result.is_ring) result.type = result.type == CellType::triangle ? CellType::prism : CellType::hexahedron;
   const CellShape& shape = shape_of(result.type);
   const Split& split = split_of(result.type);
   const auto nodes = nodes_of(mesh, cell);
   auto& point = result.point;
-  for (int i = 0; i < shape.n_corners; ++i) point[i] = mesh.nodes[nodes[i]] - mesh.centroid[cell];
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    point[i] = mesh.nodes[nodes[i]] - mesh.centroid[cell];
+    if (result.is_ring) point[nodes.size() + i] = point[i] + Point{0, 0, mesh.nodes[nodes[i]].y};
+  }
   if (shape.n_corners < split.n_points) {
     int n = shape.n_corners;
     for (int f = 0; f < shape.n_faces; ++f) {
@@ -335,8 +347,10 @@ PlaneSection section(const CellCorners& cell, const CutPlane& plane) {
   for (int i = 0; i < shape_of(cell.type).n_corners; ++i) size = std::max(size, dot(cell.point[i], cell.point[i]));
   const Heights heights(cell, plane.n, plane.d, 1e-15 * std::sqrt(size));
   if (plane.d <= heights.lowest || plane.d > heights.highest) return {};
-  return shape_of(cell.type).dimension == 2 ? section_in<2>(cell, heights, plane.d)
-                                            : section_in<3>(cell, heights, plane.d);
+  PlaneSection cut = shape_of(cell.type).dimension == 2 ? section_in<2>(cell, heights, plane.d)
+                                                        : section_in<3>(cell, heights, plane.d);
+  if (cell.is_ring) cut.centroid.z = 0;
+  return cut;
 }
 
 FaceOutlines::FaceOutlines(const Mesh& mesh) : mesh_(&mesh), local_(mesh.n_faces()) {
@@ -345,7 +359,8 @@ FaceOutlines::FaceOutlines(const Mesh& mesh) : mesh_(&mesh), local_(mesh.n_faces
     double smallest = std::numeric_limits<double>::infinity();
     for (int local = 0; local < shape_of(mesh.cell_type[cell]).n_faces; ++local) {
       const FaceOutline o = outline(mesh, cell, local, mesh.face_centroid[face]);
-      const Point off = face_geometry({o.corner.data(), static_cast<std::size_t>(o.size)}).centroid;
+      Point off = face_geometry({o.corner.data(), static_cast<std::size_t>(o.size)}).centroid;
+      if (mesh.axisymmetric) off.z = 0;
       if (const double square = dot(off, off); square < smallest) {
         smallest = square;
         local_[face] = static_cast<std::int8_t>(local);

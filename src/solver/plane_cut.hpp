@@ -4,6 +4,9 @@
 // mesh measures its area, so that cell and faces agree, warped faces included. Everything here is a pure function of
 // corners relative to the cell's centroid, in the cell's own order: the same bits on every rank that knows the cell.
 // Nothing allocates.
+//
+// Of a ring only the section is cut, but volumes and areas go with the distance r from the axis. They are those of a
+// body in space: the part of a prism over the section that lies below z = r. The plane stands upright on the section.
 #pragma once
 
 #include <array>
@@ -27,7 +30,8 @@ inline CutPlane complement(const CutPlane& plane) { return {-1.0 * plane.n, -pla
 /// A cell ready for cutting.
 struct CellCorners {
   static constexpr int most_points = 15, most_simplices = 24;
-  CellType type = CellType::triangle;
+  CellType type = CellType::triangle;  ///< of a ring the prism or hexahedron over its section
+  bool is_ring = false;
   double volume = 0;                                    ///< of all simplices [m^3], in a plane [m^2]
   std::array<Point, most_points> point;                 ///< corners, means of quadrilateral faces, mean of the corners
   std::array<double, most_simplices> simplex_volume{};  ///< with sign; zeros follow those that the type has
@@ -46,16 +50,16 @@ double place_plane(const CellCorners& cell, const Point& n, double fraction);
 
 /// The part of a plane inside a cell.
 struct PlaneSection {
-  double area = 0;  ///< [m^2], in a plane [m]; 0 if the plane misses the cell
+  double area = 0;  ///< [m^2], in a plane [m], of a ring over 2 pi; 0 if the plane misses the cell
   Point centroid;   ///< relative to the cell's centroid
 };
 
 /// A plane in a face of the cell: the face if the cell lies below it, nothing if it lies above.
 PlaneSection section(const CellCorners& cell, const CutPlane& plane);
 
-/// Corners of a face relative to its centroid, in the order of the left cell.
+/// Corners of a face relative to its centroid, in the order of the left cell; of a ring's the trapezoid below z = r.
 struct FaceOutline {
-  int size = 0;  ///< 2 in a plane, else 3 or 4
+  int size = 0;  ///< 2 in a plane and on an axis, else 3 or 4
   std::array<Point, 4> corner;
 };
 

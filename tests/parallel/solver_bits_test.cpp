@@ -149,6 +149,12 @@ TEST_CASE("the droplet with a sharp surface gives the same bits on any number of
   check_bits(100, "droplet", {set_second_order, {"mesh_parameters.h", "1e-3"}});
 }
 
+TEST_CASE("the axisymmetric droplet gives the same bits on any number of ranks") {
+  check_bits(100, "droplet_axisymmetric", {set_first_order});
+  check_bits(100, "droplet_axisymmetric", {{"mesh_parameters.element", "3"}});
+  check_bits(100, "droplet_axisymmetric", {{"scheme.interface", "compressed"}});
+}
+
 TEST_CASE("faces inside a rank are swept while the halo of a late neighbour is on its way") {
   constexpr auto delay = std::chrono::milliseconds(300);
   SceneOptions options;

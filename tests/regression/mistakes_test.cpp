@@ -174,7 +174,7 @@ TEST_CASE("a mesh that is missing, no mesh, cut short, of another dimension, or 
 TEST_CASE("what does not exist yet is refused like what never will, not ignored") {
   for (const char* key : {"checkpoint_every = 10", "stop_when = \"steady\"", "restart = true"})
     check_replaced("end_time = 1e-5", std::string(key) + "\nend_time = 1e-5", {"unknown key"});
-  check_replaced("end_time = 1e-5", "scene = \"axisymmetric\"\nend_time = 1e-5", {"allowed: plane, space"});
+  check_replaced("end_time = 1e-5", "scene = \"spherical\"\nend_time = 1e-5", {"allowed: plane, axisymmetric, space"});
   check_refused(with(right, "[boundary]", "[contact]\ndefault = \"friction\"\n[boundary]"),
                 {"wrong.toml:20: ", "\"friction\"", "allowed: sliding, adherence"});
   check_refused(with(right, "[boundary]", "[scheme]\nlimiter = \"minmod\"\n[boundary]"),
@@ -192,6 +192,27 @@ TEST_CASE("traces of every phase are refused with sharp") {
   const std::string sharp = with(right, "[boundary]", "[scheme]\ninterface = \"sharp\"\n[boundary]");
   check_refused(with(sharp, "end_time", "alpha_min = 1e-5\nend_time"),
                 {"wrong.toml:4: ", "alpha_min = 1e-05 with sharp or compressed interfaces", "interface = \"diffuse\""});
+}
+
+TEST_CASE("an axisymmetric scene has its axis where its mesh touches y = 0, and nowhere else") {
+  const std::string round = with(right, "end_time", "scene = \"axisymmetric\"\nend_time");
+  const auto with_boundary = [&](const std::string& text) {
+    return with(round, "left = \"transmissive\"\n\"*\" = \"wall\"\n", text);
+  };
+  const Folder folder;
+  folder.write("right.toml", complete(with_boundary("bottom = \"axis\"\n\"*\" = \"wall\"\n")));
+  const Outcome outcome = shell(program_with("check right.toml"), folder);
+  INFO(outcome.err);
+  CHECK(outcome.status == 0);
+  CHECK_THAT(outcome.out, Contains("axisymmetric scene, 64 cells"));
+
+  check_refused(round, {"wrong.toml:22: ", "boundary 'bottom' has faces on the axis y = 0", "condition \"axis\""});
+  check_refused(with_boundary("top = \"axis\"\nbottom = \"axis\"\n\"*\" = \"wall\"\n"),
+                {"wrong.toml:21: ", "boundary 'top' = \"axis\", but it has faces off the axis y = 0"});
+  check_refused(with_boundary("top = { type = \"periodic\", with = \"bottom\" }\n\"*\" = \"wall\"\n"),
+                {"box.geo", "'top' and 'bottom'", "a translation along x"});
+  check_refused(with(on_mesh("side = \"wall\"\n"), "end_time", "scene = \"axisymmetric\"\nend_time"),
+                {"mesh.msh", "lies at y >= 0", "a node is at (1, -0.5)"}, with(square, "2 1 0 0", "2 1 -0.5 0"));
 }
 
 TEST_CASE("a change on the command line is refused by its own name") {

@@ -67,8 +67,8 @@ TEST_CASE("keys and words of features that do not exist are refused like unknown
   for (const char* key : {"checkpoint_every = 10", "stop_when = \"steady\"", "accuracy = \"high\"", "order = 1"})
     check_mistake(with(rest, "end_time", std::string(key) + "\nend_time"), key,
                   {"unknown key", "allowed: schema, title"});
-  check_mistake(with(rest, "end_time", "scene = \"axisymmetric\"\nend_time"), "scene", {"allowed: plane, space"});
-  check_replaced("\"wall\"", "\"axis\"", {"allowed: wall, symmetry, transmissive, inflow, periodic"});
+  check_mistake(with(rest, "end_time", "scene = \"spherical\"\nend_time"), "scene",
+                {"allowed: plane, axisymmetric, space"});
   check_mistake(rest + "[scheme]\norder = 3\n", "order", {"order = 3; allowed: a whole number"});
   check_mistake(rest + "[scheme]\ninterface = \"blurred\"\n", "interface", {"allowed: sharp, compressed, diffuse"});
   check_mistake(rest + "[scheme]\nlimiter = \"minmod\"\n", "limiter", {"allowed: monotone, none"});
@@ -298,6 +298,19 @@ TEST_CASE("what a plane cannot hold is refused when the scene is a plane, else w
   const Setup flat_box = read_text(with(rest, "\"everywhere\"", "\"box\"\nlow = [0, 0]\nhigh = [1, 1]"));
   CHECK_NOTHROW(check_for_geometry(flat_box, Geometry::plane));
   CHECK_THROWS_WITH(check_for_geometry(flat_box, Geometry::space), Contains("box"));
+}
+
+TEST_CASE("an axis is one of an axisymmetric scene, which holds no more than a plane does") {
+  const std::string axis = with(rest, "\"*\" = \"wall\"", "low = \"axis\"\n\"*\" = \"wall\"");
+  const auto in = [&](const std::string& scene) {
+    return with(axis, "end_time", "scene = \"" + scene + "\"\nend_time");
+  };
+  CHECK(mistakes_in(in("axisymmetric")).empty());
+  check_mistake(in("plane"), "low", {"boundary \"low\" = \"axis\" in a plane scene", "scene = \"axisymmetric\""});
+  check_mistake(in("space"), "low", {"boundary \"low\" = \"axis\" in a space scene"});
+  CHECK_THROWS_WITH(check_for_geometry(read_text(axis), Geometry::plane), Contains("in a plane scene"));
+  check_mistake(with(in("axisymmetric"), "pressure", "velocity = [0, 0, 1]\npressure"), "[[region]]",
+                {"velocity of phase \"air\" has a third component in an axisymmetric scene"});
 }
 
 TEST_CASE("all mistakes of a case are told together, in the order of the file") {

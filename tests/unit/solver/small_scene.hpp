@@ -55,13 +55,13 @@ inline void add_sides(RawMesh& raw, const std::vector<Point>& place, const Point
   }
 }
 
-inline Mesh connected(RawMesh raw) {
-  const GlobalMesh whole = build_global_mesh(std::move(raw), {});
+inline Mesh connected(RawMesh raw, bool axisymmetric = false) {
+  const GlobalMesh whole = build_global_mesh(std::move(raw), {}, axisymmetric);
   return PartCutter(whole, std::vector<int>(whole.n_cells(), 0), 1).cut(0);
 }
 
 /// The unit square or cube in n cells per edge (before splitting), interior nodes moved by up to `warp` / n.
-inline Mesh small_mesh(CellType type, int n, double warp = 0.2) {
+inline Mesh small_mesh(CellType type, int n, double warp = 0.2, bool axisymmetric = false) {
   const bool plane = type == CellType::triangle || type == CellType::quadrilateral;
   RawMesh raw;
   raw.dimension = plane ? 2 : 3;
@@ -112,7 +112,7 @@ inline Mesh small_mesh(CellType type, int n, double warp = 0.2) {
     }
   }
   add_sides(raw, place, {1, 1, 1});
-  return connected(std::move(raw));
+  return connected(std::move(raw), axisymmetric);
 }
 
 /// Rectangles of height 1 between the given x.

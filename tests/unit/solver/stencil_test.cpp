@@ -79,13 +79,15 @@ struct MeshFile {
   std::map<std::string, double> parameters;
 };
 const std::vector<MeshFile> boxes = {{"triangles", "box.geo", {{"n", 12}, {"element", 3}}},
-                                {"quadrilaterals", "box.geo", {{"n", 9}, {"height", 0.7}}},
-                                {"tetrahedra", "box_space.geo", {{"n", 6}, {"element", 4}}},
-                                {"hexahedra", "box_space.geo", {{"n", 5}, {"width", 0.6}}},
-                                {"all types of cells", "box_space.geo", {{"n", 9}, {"element", 0}}}};
+                                     {"quadrilaterals", "box.geo", {{"n", 9}, {"height", 0.7}}},
+                                     {"tetrahedra", "box_space.geo", {{"n", 6}, {"element", 4}}},
+                                     {"hexahedra", "box_space.geo", {{"n", 5}, {"width", 0.6}}},
+                                     {"all types of cells", "box_space.geo", {{"n", 9}, {"element", 0}}}};
 
-Mesh mesh_of(const MeshFile& box, std::vector<std::pair<std::string, std::string>> periodic = {}) {
+Mesh mesh_of(const MeshFile& box, std::vector<std::pair<std::string, std::string>> periodic = {},
+             bool axisymmetric = false) {
   MeshRequest request;
+  request.axisymmetric = axisymmetric;
   request.file = std::string(SOURCE_DIR "/meshes/") + box.file;
   request.parameters = box.parameters;
   request.periodic = std::move(periodic);
@@ -124,6 +126,16 @@ TEST_CASE("gradients at a wall are exact for linear fields that the wall mirrors
     for (const Boundary& mirror : {Boundary(Wall{}), Boundary(Symmetry{})})
       CHECK(largest_error(mesh, boundaries_of(mesh, Inflow{}, {{"bottom", mirror}}), mirrored_field) < 1e-12);
     CHECK(largest_error(mesh, boundaries_of(mesh, Inflow{}, {{"bottom", Wall{}}}), any_field) > 0.1);
+  }
+}
+
+TEST_CASE("gradients of an axisymmetric scene are exact for linear fields, also at its axis") {
+  for (const MeshFile& box : boxes) {
+    if (std::string(box.file) != "box.geo") continue;
+    CAPTURE(box.name);
+    const Mesh mesh = mesh_of(box, {}, true);
+    CHECK(largest_error(mesh, boundaries_of(mesh, Inflow{}), any_field) < 1e-12);
+    CHECK(largest_error(mesh, boundaries_of(mesh, Inflow{}, {{"bottom", AxisOfSymmetry{}}}), mirrored_field) < 1e-12);
   }
 }
 
