@@ -69,7 +69,7 @@ velocity = )" + velocity(50) +
 }
 
 /// 1 MPa is 2e-4 of what the slip does to the pressure where faces are oblique to the contact.
-void check_slip(const Slip& slip, double pressure = 1) {
+void check_slip(const Slip& slip, double pressure = 100) {
   CAPTURE(slip.pressure, slip.lost);
   CHECK(slip.pressure < pressure);
   CHECK(std::fabs(slip.lost) < 1e-3);
