@@ -52,6 +52,7 @@ void Solver::take_step(double until) {
   }
   if (sharp_) sharp_->act(faces_, fields_, touched_cells_.span());
   update_cells(dt);
+  relax_dust();
   if (redistribution_) redistribution_->run(mesh_, faces_, fields_, touched_cells_.span());
   last_dt_ = dt;
   convert_owned(dt);
@@ -82,7 +83,6 @@ void Solver::restore() {
   followers_ = saved_followers_;
   unphysical_.clear();
   troubled_ = false;
-  bad_.clear();  // was admissible
   for (int k = 0; k < fields_.n_phases(); ++k) {
     Phase& phase = fields_.phases[k];
     if (phase.is_void) continue;
@@ -91,7 +91,12 @@ void Solver::restore() {
       if (!fields_.multiphase() || phase.alpha[cell] != 0) scratch_cells_.push(cell);
     const std::int32_t count = scratch_cells_.size();
     scratch_cells_.fill(pack_width);
+    bad_.clear();
     kernels_[k].primitives(phase, scratch_cells_, count, bad_);
+    if (!sharp_) continue;
+    for (const std::int32_t cell : bad_)  // a follower that nothing has touched since
+      if (std::find(followers_.begin(), followers_.end(), std::pair(cell, k)) == followers_.end())
+        followers_.emplace_back(cell, k);
   }
   if (!fields_.multiphase()) return;
   scratch_cells_.clear();
@@ -440,12 +445,30 @@ void Solver::convert_owned(double dt) {
   followed_ += static_cast<std::int64_t>(followers_.size());
 }
 
+/// The index of the void; -1: there is none.
+int Solver::find_void() const {
+  for (int k = 0; k < fields_.n_phases(); ++k)
+    if (fields_.phases[k].is_void) return k;
+  return -1;
+}
+
+/// Dust before a void has the void's pressure, about.
+void Solver::relax_dust() {
+  constexpr double tolerance = 0.1;
+  const int void_phase = find_void();
+  if (void_phase < 0) return;
+  for (int k = 0; k < fields_.n_phases(); ++k) {
+    if (k == void_phase) continue;
+    const auto& alpha = fields_.phases[k].alpha;
+    for (const std::int32_t cell : touched_cells_.span())
+      if (alpha[cell] > 0 && alpha[cell] < dust) torn_ += relax_to_void(fields_, k, void_phase, cell, tolerance);
+  }
+}
+
 /// Before a void: see relax_to_void.
 void Solver::relax_splinters(std::vector<std::pair<std::int32_t, int>>& inadmissible) {
-  const auto is_void = [](const Phase& phase) { return phase.is_void; };
-  const auto around = std::find_if(fields_.phases.begin(), fields_.phases.end(), is_void);
-  if (around == fields_.phases.end()) return;
-  const int void_phase = static_cast<int>(around - fields_.phases.begin());
+  const int void_phase = find_void();
+  if (void_phase < 0) return;
   const auto relaxed = [&](const std::pair<std::int32_t, int>& splinter) {
     const auto [cell, k] = splinter;
     if (fields_.phases[k].alpha[cell] > largest_splinter || !relax_to_void(fields_, k, void_phase, cell)) return false;

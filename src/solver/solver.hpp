@@ -109,6 +109,8 @@ class Solver {
   void book_boundaries(double dt);
   void choose_present(CellList& cells, const Phase& phase);
   void convert_owned(double dt);
+  int find_void() const;
+  void relax_dust();
   void relax_splinters(std::vector<std::pair<std::int32_t, int>>& inadmissible);
   void mend(std::vector<std::pair<std::int32_t, int>>& inadmissible);
   void note_unphysical(int k, std::int32_t cell);

@@ -34,7 +34,7 @@ double volume_at(const Eos& eos, double e_h, double v, double p0) {
 
 }  // namespace
 
-bool relax_to_void(Fields& fields, int k, int void_phase, std::int32_t cell) {
+bool relax_to_void(Fields& fields, int k, int void_phase, std::int32_t cell, double tolerance) {
   Phase& phase = fields.phases[k];
   Phase& around = fields.phases[void_phase];
   const double mass = phase.conserved[0][cell], alpha = phase.alpha[cell];
@@ -58,7 +58,8 @@ bool relax_to_void(Fields& fields, int k, int void_phase, std::int32_t cell) {
     volume = volume_at(phase.eos, e_h, v, p0);
   }
   const double filled = mass * volume;
-  if (!(volume > 0) || filled > alpha + around.alpha[cell]) return false;
+  if (!(volume > 0) || filled > alpha + around.alpha[cell] || std::fabs(filled - alpha) < tolerance * alpha)
+    return false;
 
   phase.conserved[1 + fields.dimension][cell] -= p0 * (filled - alpha);
   phase.alpha[cell] = filled;
