@@ -133,8 +133,11 @@ void Redistribution::share_choices(const Mesh& mesh) {
   }
 }
 
-/// What part of the donor the neighbourhood of a small volume needs, to be as large as `target` cells.
-void Redistribution::lend(const Fields& fields, Pair& pair, double target) const {
+/// What part of the donor the neighbourhood of a small volume needs, to be as large as `target` cells. Around a
+/// corner of simplices many volumes are small alike and each other's partners: there all that can be lent is needed.
+void Redistribution::lend(const Mesh& mesh, const Fields& fields, Pair& pair, double target) const {
+  const CellType type = mesh.cell_type[pair.cell];
+  if (type == CellType::triangle || type == CellType::tetrahedron) target = std::numeric_limits<double>::infinity();
   const auto& alpha = fields.phases[pair.k].alpha;
   const double most = 1.0 / (1 + members_[pair.k].chosen[pair.donor]);
   const double missing = (target - alpha[pair.cell]) * fields.volume[pair.cell];
@@ -343,7 +346,7 @@ void Redistribution::settle(const Mesh& mesh, const Faces& faces, Fields& fields
   }
   for (Pair& pair : pairs_) {
     if (pair.donor >= mesh.n_owned) continue;
-    lend(fields, pair, target);
+    lend(mesh, fields, pair, target);
     if (target < 1 && fields.phases[pair.k].alpha[pair.cell] > 0) pair.step = step_beside(mesh, faces, fields, pair);
   }
   average(mesh, faces, fields);

@@ -78,7 +78,7 @@ class Redistribution {
   void settle(const Mesh& mesh, const Faces& faces, Fields& fields, double target);
   void share_choices(const Mesh& mesh);
   void average(const Mesh& mesh, const Faces& faces, const Fields& fields);
-  void lend(const Fields& fields, Pair& pair, double target) const;
+  void lend(const Mesh& mesh, const Fields& fields, Pair& pair, double target) const;
   double kept(const Mesh& mesh, const Faces& faces, int k, std::int32_t cell) const;
   template <class Visit>
   void for_each_taker(const Mesh& mesh, const Faces& faces, int k, std::int32_t cell, const Visit& visit) const;

@@ -87,7 +87,7 @@ TEST_CASE("an impact reaches the exact stress and velocity within 0.7 % on irreg
       7e-3);
 }
 
-TEST_CASE("an impact with a sharp contact reaches the exact stress and velocity within 0.1 % on simplices") {
+TEST_CASE("an impact with a sharp contact reaches the exact stress and velocity within 0.2 % on simplices") {
   const int order = GENERATE(1, 2);
   CAPTURE(order);
   const Changes sharp{{"scheme.order", std::to_string(order)}, {"scheme.interface", "\"sharp\""}};
@@ -95,12 +95,12 @@ TEST_CASE("an impact with a sharp contact reaches the exact stress and velocity 
                            {"mesh_parameters", "{ n = 125, element = 4 }"},
                            {"boundary.back", "symmetry"},
                            {"boundary.front", "symmetry"}};
-  check_plateau(run_impact(Changes{{"mesh_parameters", "{ n = 500, element = 3 }"}} + sharp), 1e-3);
+  check_plateau(run_impact(Changes{{"mesh_parameters", "{ n = 500, element = 3 }"}} + sharp), 2e-3);
   check_plateau(run_impact(Changes{{"mesh", "\"../meshes/box.geo\""},
                                    {"mesh_parameters", "{ n = 250, height = 0.016, element = 3 }"}} +
                            sharp),
-                1e-3);
-  check_plateau(run_impact(tetrahedra + sharp), 1e-3);
+                2e-3);
+  check_plateau(run_impact(tetrahedra + sharp), 2e-3);
 }
 
 TEST_CASE("an impact on 500 cells is as accurate as an independent first-order implementation") {
