@@ -405,7 +405,10 @@ void Solver::convert_owned(double dt) {
   inadmissible.erase(std::unique(inadmissible.begin(), inadmissible.end()), inadmissible.end());
 
   relax_splinters(inadmissible);
-  if (attempt_ == 0) {
+  // Between bodies the neighbour's state mends a cell better than caution does: a step with diffuse interfaces at an
+  // impact leaves its mark for good. What tears before a void is not mended so.
+  const bool tears = std::ranges::any_of(fields_.phases, [](const Phase& phase) { return phase.is_void; });
+  if (attempt_ == 0 && tears) {
     for (const auto& [cell, k] : inadmissible)
       if (fields_.phases[k].alpha[cell] >= (sharp_ ? fragment_of_sharp : fragment)) note_troubled(cell, k);
     if (mpi_.any(troubled_)) return;
