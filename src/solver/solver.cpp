@@ -50,6 +50,7 @@ void Solver::take_step(double until) {
   } else {
     dt = sweep_centred(until);
   }
+  if (dt == 0) return;
   if (sharp_) sharp_->act(faces_, fields_, touched_cells_.span());
   update_cells(dt);
   relax_dust();
@@ -69,6 +70,7 @@ void Solver::save() {
     for (const auto& component : phase.conserved) keep(component);
   }
   saved_followers_ = followers_;
+  saved_stable_step_ = stable_step_;
 }
 
 void Solver::restore() {
@@ -81,6 +83,7 @@ void Solver::restore() {
     for (auto& component : phase.conserved) put_back(component);
   }
   followers_ = saved_followers_;
+  stable_step_ = saved_stable_step_;
   unphysical_.clear();
   troubled_ = false;
   for (int k = 0; k < fields_.n_phases(); ++k) {
@@ -155,6 +158,7 @@ double Solver::sweep_centred(double until) {
     clock_.halo_received = seconds() - clock_.step_start;
     sweep(Part::halo);
     stable_step_ = stable_step();
+    if (stable_step_ == 0) return 0;
     if (options.dt > 0 && options.dt <= margin * setup_.cfl * stable_step_) return options.dt;
     options.dt = step_to(until, stable_step_);
   }
@@ -167,7 +171,8 @@ void Solver::begin_sweeps() {
     std::fill(faces_.fastest.begin(), faces_.fastest.end(), 0.0);
 }
 
-/// 2 V / sum A lambda of the sweeps just done, smallest over all cells of all ranks.
+/// 2 V / sum A lambda of the sweeps just done, smallest over all cells of all ranks; 0 where a wave speed is not a
+/// finite number.
 double Solver::stable_step() {
   if (fields_.multiphase()) list_cells();
   double step;
@@ -177,9 +182,7 @@ double Solver::stable_step() {
                            : largest_step<Pack>(faces_, fields_.volume, material_cells_, material_count_);
   }
   if (step == 0) find_undefined_speed();
-  step = mpi_.min(step);
-  if (step == 0) stop_unphysical();
-  return step;
+  return mpi_.min(step);
 }
 
 void Solver::sweep(Part part) {
@@ -306,7 +309,10 @@ COBASIS_KERNEL void Solver::list_cells() {
       choose(pure_cells_[k], equal_lanes(pure, same(k)) & ~touched & valid, at);
       Indices<Pack> acts;
       for (int i = 0; i < pack_width; ++i) acts[i] = acting[i] & (1 << k);
-      choose(mixed_cells_[k], ~equal_lanes(acts, same(0)) & touched, at);
+      // a phase may fill a cell that only others touch
+      const Pack alpha = load<Pack>(&fields_.phases[k].alpha[first]);
+      const unsigned present = positive_lanes(alpha) | positive_lanes(-alpha);
+      choose(mixed_cells_[k], (~equal_lanes(acts, same(0)) | present) & touched, at);
     }
   }
   material_count_ = material_cells_.size();
@@ -548,7 +554,7 @@ void Solver::find_undefined_speed() {
         if (!fields_.phases[k].is_void &&
             (largest < 0 || fields_.phases[k].alpha[cell] > fields_.phases[largest].alpha[cell]))
           largest = k;
-      note_unphysical(largest, cell);
+      note_troubled(cell, largest);
       unphysical_ += "; a wave speed is not a finite number";
       return;
     }

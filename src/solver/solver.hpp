@@ -157,6 +157,7 @@ class Solver {
   std::int64_t redone_ = 0;                   // attempts that failed
   std::vector<AlignedVector<double>> saved_;  // volume fractions and conserved quantities before the step
   std::vector<std::pair<std::int32_t, int>> saved_followers_;
+  double saved_stable_step_ = 0;
   double stable_step_ = 0;  // at cfl 1, by the signals of the last sweep; 0: none yet
   StepClock clock_;
 };
