@@ -13,6 +13,19 @@ Symmetric<Space, double> metric_of(const Phase& phase, int dimension, std::int32
   return {g.xx, g.yy, g.zz, g.xy, 0, 0};
 }
 
+/// A fragment may have a volume and no mass: then it has neither velocity nor energy.
+bool has_mass(const Phase& phase, std::int32_t cell) {
+  return (phase.alpha.empty() || phase.alpha[cell] > 0) && phase.conserved[0][cell] > 0;
+}
+/// Nor is its cobasis always a deformation: then it has no stress and no pressure either.
+bool has_state(const Phase& phase, int dimension, std::int32_t cell) {
+  if (!has_mass(phase, cell)) return false;
+  if (phase.kind == Kind::fluid) return true;
+  const Indices<double> at{cell};
+  return (dimension == 3 ? determinant(load_cobasis<Space, double>(phase, at))
+                         : determinant(load_cobasis<Plane, double>(phase, at))) > 0;
+}
+
 }  // namespace
 
 const ExchangeCounters& Solver::exchange_counters() const {
@@ -71,7 +84,7 @@ Snapshot Solver::snapshot(Content content) const {
       for (auto& component : out.cobasis) component.assign(n, 0);
     }
     for (std::int32_t cell = 0; cell < n; ++cell) {
-      if (!(out.alpha[cell] > 0)) continue;
+      if (!has_state(phase, D, cell)) continue;
       const auto primitive = [&](int c) { return phase.primitive[c][cell]; };
       const double rho = phase.density()[cell], p = primitive(1 + D);
       out.density[cell] = rho;
@@ -113,15 +126,14 @@ std::vector<Column> Solver::totals() const {
     total("mass." + phase.name, "kg", conserved(0));
     for (int i = 0; i < D; ++i) total("momentum." + phase.name + "." + axis_names[i], "kg m/s", conserved(1 + i));
     total("energy." + phase.name, "J", conserved(1 + D));
-    const auto present = [&](std::int32_t c) { return !fields_.multiphase() || phase.alpha[c] > 0; };
     total("kinetic." + phase.name, "J", [&](std::int32_t c) {
       double u2 = 0;
       for (int i = 0; i < D; ++i) u2 += phase.primitive[1 + i][c] * phase.primitive[1 + i][c];
-      return present(c) ? 0.5 * u2 * phase.conserved[0][c] * fields_.volume[c] : 0;
+      return has_mass(phase, c) ? 0.5 * u2 * phase.conserved[0][c] * fields_.volume[c] : 0;
     });
     if (phase.kind == Kind::solid)
       total("elastic." + phase.name, "J", [&](std::int32_t c) {
-        return present(c)
+        return has_state(phase, D, c)
                    ? elastic_energy(phase.material, metric_of(phase, D, c)) * phase.conserved[0][c] * fields_.volume[c]
                    : 0;
       });

@@ -8,7 +8,7 @@
 namespace cobasis {
 
 /// Arrays are empty where a phase has no such field (a void: all but alpha; a fluid: cobasis). Size n_owned each.
-/// Where alpha = 0 the other fields hold 0.
+/// Where a phase has no volume, or a fragment no state, the other fields hold 0.
 struct PhaseSnapshot {
   std::string name;
   bool is_void = false;

@@ -59,11 +59,10 @@ TEST_CASE("a run ends with one line that a program can read, and says nothing el
 }
 
 TEST_CASE("a run that turns unphysical stops with status 3, cell, place, phase and time, on any number of ranks") {
-  // beyond the largest stable step, with velocities that tear cells apart
+  // so fast that the energy's last digit is a tenth of what the pressure may vary by: no smaller step helps
   const std::string options =
-      "--quiet --set 'mesh=\"../meshes/box.geo\"' 'mesh_parameters={ n = 20 }' cfl=2 'line=[]' "
-      "'boundary={ \"*\" = \"wall\" }' "
-      "'region.0.velocity=[\"3000*sin(70*x+50*y)\", \"3000*cos(40*x-90*y)\"]' 'region.1.velocity=[0, 0]'";
+      "--quiet --set 'mesh=\"../meshes/box.geo\"' 'mesh_parameters={ n = 20 }' 'line=[]' "
+      "'boundary={ \"*\" = \"transmissive\" }' 'region.0.velocity=[8e10, 3e9]' 'region.1.velocity=[3e10, 1e10]'";
   std::string said;
   for (const std::string launcher : {"", "mpirun --quiet -n 2 "}) {
     const Folder folder;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "measures.hpp"
+#include "support/hypersonic.hpp"
 
 using namespace cobasis;
 using namespace cobasis::test;
@@ -172,4 +173,43 @@ TEST_CASE("mass, momentum and energy are conserved in a closed box in space with
 TEST_CASE("mass, momentum and energy are conserved in a closed box with diffuse interfaces of second order") {
   const Geometry geometry = GENERATE(Geometry::plane, Geometry::axisymmetric, Geometry::space);
   check_closed_box(GENERATE(in_gas, two_in_void), geometry, "scheme = { order = 2, interface = \"diffuse\" }\n", 300);
+}
+
+TEST_CASE("a step after which a state is not admissible is taken again, and nothing is lost with the first attempt") {
+  const auto check = [](const std::string& text) {
+    Scene scene = make_scene(text, ranks());
+    const auto all = [&](const std::string& what) {
+      double sum = 0;
+      for (const PhaseSetup& phase : scene.setup.phases)
+        sum += total(*scene.solver, what.substr(0, what.find('.')) + "." + phase.name +
+                                        what.substr(std::min(what.size(), what.find('.'))));
+      return sum;
+    };
+    const double mass = all("mass"), energy = all("energy"), x = all("momentum.x"), y = all("momentum.y");
+    const double momentum = std::sqrt(2 * mass * energy);
+    // The signals of the first attempt say how long the step is; the second, at first order, is as long.
+    const double dt = scene.solver->advance(1);
+    CHECK(scene.solver->robustness().redone == 1);
+    CHECK(scene.solver->time() == dt);
+    scene.run(100);
+    CHECK(scene.solver->step() == 101);
+    CHECK(std::fabs(all("mass") / mass - 1) < 1e-12);
+    CHECK(std::fabs(all("energy") / energy - 1) < 1e-12);
+    CHECK(std::fabs(all("momentum.x") - x) < 1e-12 * momentum);
+    CHECK(std::fabs(all("momentum.y") - y) < 1e-12 * momentum);
+  };
+  SECTION("gas") { check(hypersonic_gas(4)); }
+  SECTION("solid") { check(hypersonic_solid(3)); }
+  SECTION("two solids with a sharp contact") { check(hypersonic_solids(4)); }
+}
+
+TEST_CASE("a step that fails at first order too is halved until it does not") {
+  const std::string gas = hypersonic_gas(4).substr(second_order.size());
+  Scene stable = make_scene("cfl = 0.5\n" + first_order + gas, ranks());
+  Scene scene = make_scene("cfl = 2\n" + first_order + gas, ranks());
+  const double dt = stable.solver->advance(1), halved = scene.solver->advance(1);
+  CHECK(stable.solver->robustness().redone == 0);
+  const auto halvings = static_cast<double>(scene.solver->robustness().redone - 1);  // not before the third attempt
+  CHECK(halvings >= 1);
+  CHECK(halved == Approx(2 / 0.5 * dt * std::exp2(-halvings)).epsilon(1e-14));
 }

@@ -146,25 +146,48 @@ TEST_CASE("a cell that is neither small nor chosen keeps its bits, and so does a
 }
 
 TEST_CASE("a chain of ever smaller volumes: each is averaged with the next larger one") {
-  // volumes of the phase 1.2, 0.3, 0.1, 0.02; in 2, 2, 2, 1 neighbourhoods
+  // volumes of the phase 1.2, 0.3, 0.1, 0.02, of which half a cell misses 0, 0.2, 0.4, 0.48
   Row row({0, 2, 3, 4, 5}, {0.6, 0.3, 0.1, 0.02}, {1, 2, 5, 40});
-  const double q1 = (0.15 * 2 + 0.6 * 1) / 0.75, q2 = (0.05 * 5 + 0.15 * 2) / 0.2, q3 = (0.02 * 40 + 0.05 * 5) / 0.07;
+  const double lent = 0.2 / 1.2;  // by the first; the others lend half of themselves
+  const double q1 = (0.15 * 2 + 0.2 * 1) / 0.35, q2 = (0.05 * 5 + 0.15 * 2) / 0.2, q3 = (0.02 * 40 + 0.05 * 5) / 0.07;
   CHECK(row.run().merged == 3);
-  row.check({(1 + q1) / 2, (q1 + q2) / 2, (q2 + q3) / 2, q3});
+  row.check({(1 - lent) * 1 + lent * q1, (q1 + q2) / 2, (q2 + q3) / 2, q3});
 }
 
-TEST_CASE("a cell chosen by several gives each an equal share") {
+TEST_CASE("a donor lends what brings a small volume to half a cell: what nearly is that is hardly averaged") {
+  Row row({0, 1, 2}, {0.4, 1}, {3, 1});
+  const double q = (0.4 * 3 + 0.1 * 1) / 0.5;
+  CHECK(row.run().merged == 1);
+  row.check({q, 0.9 * 1 + 0.1 * q});
+
+  constexpr double missing = 1e-6;
+  Row nearly({0, 1, 2}, {0.5 - missing, 1}, {3, 1});
+  const double mean = ((0.5 - missing) * 3 + missing * 1) / 0.5;
+  CHECK(nearly.run().merged == 1);
+  nearly.check({mean, (1 - missing) * 1 + missing * mean});
+
+  Row half({0, 1, 2}, {0.5, 1}, {3, 1});
+  CHECK(half.run().merged == 0);
+  half.check({3, 1});
+}
+
+TEST_CASE("a cell chosen by several gives each what it needs, and not more than an equal share") {
   Row row({0, 1, 1.5, 3}, {0.2, 0.9, 0.3}, {3, 1, 8});
   const double q0 = (0.2 * 3 + 0.15 * 1) / 0.35, q2 = (0.45 * 8 + 0.15 * 1) / 0.6;
   CHECK(row.run().merged == 2);
   row.check({q0, (1 + q0 + q2) / 3, q2});
+
+  Row large({0, 1, 3, 4}, {0.2, 0.9, 0.3}, {3, 1, 8});  // 0.3 and 0.2 of the 1.8 in the middle
+  const double p0 = (0.2 * 3 + 0.3 * 1) / 0.5, p2 = (0.3 * 8 + 0.2 * 1) / 0.5;
+  CHECK(large.run().merged == 2);
+  large.check({p0, (1.3 * 1 + 0.3 * p0 + 0.2 * p2) / 1.8, p2});
 }
 
 TEST_CASE("the partner is the neighbour with most of the phase, of equals the one with the smaller global number") {
   Row more({0, 1, 2, 3}, {0.6, 0.2, 0.7}, {1, 2, 3});
   more.run();
-  const double q = (0.2 * 2 + 0.35 * 3) / 0.55;
-  more.check({1, q, (3 + q) / 2});
+  const double q = (0.2 * 2 + 0.3 * 3) / 0.5;
+  more.check({1, q, (0.4 * 3 + 0.3 * q) / 0.7});
 
   Row equal({0, 1, 2, 3}, {0.6, 0.2, 0.6}, {1, 2, 3});
   equal.run();
@@ -174,6 +197,43 @@ TEST_CASE("the partner is the neighbour with most of the phase, of equals the on
   } else {
     const double mean = (0.2 * 2 + 0.3 * 3) / 0.5;
     equal.check({1, mean, (3 + mean) / 2});
+  }
+}
+
+TEST_CASE("at second order what varies linearly with the middle of the phase stays, the rest keeps the difference") {
+  constexpr double alpha = 0.2, slope = 0.3, u = 5, v = -2, E = 7;  // the phase fills 0 … 1 and, of the rest, 1 … 1.2
+  const auto rho = [](double x) { return 2 + slope * x; };
+  for (const double more : {0.0, 0.4}) {  // beyond what the slope says
+    Row row({0, 1, 2}, {1, alpha}, {0, 0});
+    const Faces faces = make_faces(row.mesh);
+    Phase& phase = row.fields.phases[0];
+    phase.primitive.resize(Layout<Plane, Kind::fluid>::n_primitive);
+    phase.face_states.stride = FaceStates::stride_for(faces.n);
+    phase.face_states.storage = RawStorage(2 * phase.face_states.stride * Layout<Plane, Kind::fluid>::n_face_state);
+    for (std::int32_t face = 0; face < faces.n; ++face)
+      for (const int side : {0, 1}) {
+        const auto put = [&](int c, double value) {
+          phase.face_states.component(c)[side * phase.face_states.stride + face] = value;
+        };
+        using L = Layout<Plane, Kind::fluid>;
+        put(L::rho, rho(row.mesh.face_centroid[face].x)), put(L::u, u), put(L::u + 1, v), put(L::E, E);
+      }
+    const auto set = [&](std::int32_t cell, double density) {
+      const double Q[] = {density, density * u, density * v, density * E};
+      for (int c = 0; c < 4; ++c) set_intensive(row.fields, 0, c, cell, Q[c]);
+    };
+    const double beside = rho(1 + alpha / 2);
+    set(row.cell[0], rho(0.5)), set(row.cell[1], beside + more);
+    CHECK(row.run().merged == 1);
+    const double lent = 0.5 - alpha, mean_more = alpha * more / 0.5;
+    const double expected[] = {rho(0.5) + lent * mean_more, beside + mean_more};
+    for (const int i : {0, 1}) {
+      const double Q[] = {expected[i], expected[i] * u, expected[i] * v, expected[i] * E};
+      for (int c = 0; c < 4; ++c) {
+        CAPTURE(more, i, c);
+        CHECK(intensive(row.fields, 0, c, row.cell[i]) == Approx(Q[c]).epsilon(1e-14));
+      }
+    }
   }
 }
 
