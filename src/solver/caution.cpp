@@ -5,7 +5,7 @@
 namespace cobasis {
 namespace {
 
-constexpr int rings = 2;               ///< of neighbours around a cell noted
+constexpr int first_rings = 2;         ///< of neighbours around a cell noted
 constexpr std::int64_t duration = 20;  ///< [steps]
 
 std::vector<std::size_t> one_per_cell(const Mesh& mesh) {
@@ -19,8 +19,9 @@ std::vector<std::size_t> one_per_cell(const Mesh& mesh) {
 Caution::Caution(const Mpi& mpi, const Mesh& mesh)
     : until_(mesh.n_cells(), 0), exchange_(mpi, mesh.neighbours, one_per_cell(mesh), 19) {}
 
-void Caution::spread(const Mesh& mesh, std::int64_t step) {
-  const std::int64_t until = step + duration;
+void Caution::spread(const Mesh& mesh, std::int64_t step, int failed) {
+  const std::int64_t until = step + duration * failed;
+  const int rings = first_rings * failed;
   for (const std::int32_t cell : noted_) until_[cell] = until;
   noted_.clear();
   for (int ring = 0; ring <= rings; ++ring) {

@@ -1,4 +1,4 @@
-// Where a step has failed: cells that stay at first order, with interfaces that are not sharp, for some steps.
+// Where a step has failed: cells that stay at first order and with diffuse interfaces, as in the paper, for some steps.
 #pragma once
 
 #include "mesh/mesh.hpp"
@@ -14,8 +14,9 @@ class Caution {
 
   /// An owned cell whose state was not admissible.
   void note(std::int32_t cell) { noted_.push_back(cell); }
-  /// The cells noted and those around them are treated with caution from this step on. Collective.
-  void spread(const Mesh& mesh, std::int64_t step);
+  /// The cells noted and those around them are treated with caution from this step on: the farther and the longer, the
+  /// more attempts at the step have failed. Collective.
+  void spread(const Mesh& mesh, std::int64_t step, int failed);
   /// Says in Fields::cautious which cells are treated so in this step.
   void tell(Fields& fields, std::int64_t step);
 

@@ -123,6 +123,7 @@ double SharpInterface::side_fraction(const Fields& fields, int k, std::int32_t f
 /// blended alike, so that the interface in the cell keeps its direction.
 double SharpInterface::blend_of(const Fields& fields, int k, std::int32_t cell, double dt) const {
   constexpr double most_excess = 2;
+  if (!fields.cautious.empty() && fields.cautious[cell] > 0) return 0;
   const double alpha = fields.phases[k].alpha[cell];
   double blend = 1;
   for_each_face(cell, [&](std::int32_t f, int side) {

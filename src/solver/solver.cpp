@@ -15,6 +15,9 @@ namespace {
 
 /// Below this volume fraction an inadmissible state is given to a neighbour.
 constexpr double fragment = 1e-2, fragment_of_sharp = 3e-2;
+/// With sharp interfaces a volume fraction below this has no state of its own, admissible or not: round-off of what a
+/// step takes from it and gives it again may be more than it contains.
+constexpr double without_state = 1e-6;
 
 }  // namespace
 
@@ -31,7 +34,7 @@ double Solver::advance(double until) {
     if (attempt_ + 1 == most_attempts) stop_unphysical();
     ++redone_;
     restore();
-    caution_->spread(mesh_, step_);
+    caution_->spread(mesh_, step_, attempt_ + 1);
   }
   book_boundaries(last_dt_);
   time_ = last_dt_ >= until - time_ ? until : time_ + last_dt_;
@@ -265,9 +268,11 @@ void Solver::receive_halo() {
     const Timed timed(clock_.kernels);
     bad_.clear();  // the owner reports
     kernels_[k].primitives(phase, scratch_cells_, count, bad_);
-    if (sharp_)
-      for (const std::int32_t cell : bad_)
-        if (phase.alpha[cell] < fragment_of_sharp) followers_.emplace_back(cell, k);
+    if (!sharp_) continue;
+    for (const std::int32_t cell : bad_)
+      if (phase.alpha[cell] < fragment_of_sharp && phase.alpha[cell] >= without_state) followers_.emplace_back(cell, k);
+    for (std::int32_t cell = mesh_.n_owned; cell < mesh_.n_cells(); ++cell)
+      if (phase.alpha[cell] > 0 && phase.alpha[cell] < without_state) followers_.emplace_back(cell, k);
   }
 }
 
@@ -452,6 +457,14 @@ void Solver::convert_owned(double dt) {
     else
       note_troubled(cell, k);
   followed_ += static_cast<std::int64_t>(followers_.size());
+  if (!sharp_) return;
+  for (int k = 0; k < fields_.n_phases(); ++k)
+    for (const std::int32_t cell : touched_cells_.span())
+      if (!fields_.phases[k].is_void && fields_.phases[k].alpha[cell] > 0 &&
+          fields_.phases[k].alpha[cell] < without_state)
+        followers_.emplace_back(cell, k);
+  std::sort(followers_.begin(), followers_.end());
+  followers_.erase(std::unique(followers_.begin(), followers_.end()), followers_.end());
 }
 
 /// The index of the void; -1: there is none.
