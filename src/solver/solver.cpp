@@ -412,6 +412,10 @@ void Solver::convert_owned(double dt) {
     convert(k, scratch_cells_);
     for (const std::int32_t cell : bad_) inadmissible.emplace_back(cell, k);
   }
+  for (const std::int32_t cell : touched_cells_.span())
+    for (int k = 0; k < fields_.n_phases(); ++k)
+      if (!std::isfinite(fields_.phases[k].alpha[cell])) note_troubled(cell, k);
+  if (mpi_.any(troubled_)) return;
   std::sort(inadmissible.begin(), inadmissible.end());
   inadmissible.erase(std::unique(inadmissible.begin(), inadmissible.end()), inadmissible.end());
 
