@@ -63,18 +63,27 @@ Scheme scheme_for(std::string_view accuracy) {
   return {};
 }
 
+/// After the phases: a surface between two of them is kept sharp; where three may meet, mixtures bear more.
 void read_scheme(const CaseTable& top, CaseReading& reading) {
   Scheme& scheme = reading.setup.scheme;
+  bool chosen = false;
   if (const auto table = top.table("scheme", keys_of("[scheme]"))) {
-    if (const auto accuracy = table->text("accuracy")) scheme = scheme_for(*accuracy);
+    if (const auto accuracy = table->text("accuracy")) {
+      scheme = scheme_for(*accuracy);
+      chosen = *accuracy != "balanced";
+    }
     scheme.order = static_cast<int>(table->integer("order").value_or(scheme.order));
-    if (const auto name = table->text("interface"))
+    if (const auto name = table->text("interface")) {
+      chosen = true;
       scheme.interface = *name == "sharp"        ? InterfaceTreatment::sharp
                          : *name == "compressed" ? InterfaceTreatment::compressed
                                                  : InterfaceTreatment::diffuse;
+    }
     if (const auto name = table->text("limiter")) scheme.limited = *name != "none";
     if (const auto name = table->text("low_mach")) scheme.low_mach = *name == "on";
   }
+  if (!chosen && scheme.order == 2 && reading.setup.phases.size() == 2 && reading.setup.alpha_min == 0)
+    scheme.interface = InterfaceTreatment::sharp;
   if (reading.setup.alpha_min > 0 && scheme.interface != InterfaceTreatment::diffuse)
     reading.mistakes.add(
         top.where("alpha_min"),
@@ -91,9 +100,9 @@ Setup read_case(const std::string& file, const CaseOverrides& overrides) {
   reading.setup.case_file = file;
   const CaseTable top(document, Place{1, {}}, keys_of("the case"), reading.mistakes);
   read_top_level(top, reading);
-  read_scheme(top, reading);
   read_mesh_keys(top, reading);
   read_phases(top, reading);
+  read_scheme(top, reading);
   read_contacts(top, reading);
   read_regions(top, reading);
   read_boundaries(top, reading);

@@ -131,7 +131,7 @@ std::vector<KeyTable> top_level() {
          .kind = KeyKind::word,
          .words = {"fast", "balanced", "accurate"},
          .fallback = "balanced",
-         .meaning = "fast: order 1, diffuse; balanced: order 2, diffuse; accurate: order 2, sharp. The keys "
+         .meaning = "fast: order 1, diffuse; balanced: the defaults below; accurate: order 2, sharp. The keys "
                     "below replace single choices"},
         {.key = "order",
          .kind = KeyKind::integer,
@@ -141,7 +141,7 @@ std::vector<KeyTable> top_level() {
         {.key = "interface",
          .kind = KeyKind::word,
          .words = {"sharp", "compressed", "diffuse"},
-         .fallback = "diffuse",
+         .fallback = "sharp between two phases at order 2, else diffuse",
          .meaning = "sharp: a plane in every cell that an interface crosses, bodies slide on any mesh; "
                     "compressed: thin, for films and splashes; diffuse: mixtures, as in the paper"},
         {.key = "limiter",

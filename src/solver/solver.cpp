@@ -15,6 +15,8 @@ namespace {
 
 /// Below this volume fraction an inadmissible state is given to a neighbour.
 constexpr double fragment = 1e-2, fragment_of_sharp = 3e-2;
+/// Contacts may take somewhat more of a phase from a cell than there is; neighbours give it back.
+constexpr double most_negative = -0.1;
 /// With sharp interfaces a volume fraction below this has no state of its own, admissible or not: round-off of what a
 /// step takes from it and gives it again may be more than it contains.
 constexpr double without_state = 1e-6;
@@ -414,7 +416,7 @@ void Solver::convert_owned(double dt) {
   }
   for (const std::int32_t cell : touched_cells_.span())
     for (int k = 0; k < fields_.n_phases(); ++k)
-      if (!std::isfinite(fields_.phases[k].alpha[cell])) note_troubled(cell, k);
+      if (!(fields_.phases[k].alpha[cell] > most_negative)) note_troubled(cell, k);
   if (mpi_.any(troubled_)) return;
   std::sort(inadmissible.begin(), inadmissible.end());
   inadmissible.erase(std::unique(inadmissible.begin(), inadmissible.end()), inadmissible.end());

@@ -24,7 +24,7 @@ inline std::string hypersonic_solid(int element) {
   return hypersonic(element, "1e5", "[phase.aluminium]\nmaterial = \"aluminium\"\n", "aluminium");
 }
 inline std::string hypersonic_solids(int element) {
-  return hypersonic(element, "1e4",
+  return hypersonic(element, "1e5",
                     "[phase.aluminium]\nmaterial = \"aluminium\"\n[phase.copper]\nmaterial = \"copper\"\n", "copper",
                     "aluminium");
 }

@@ -65,15 +65,11 @@ constexpr int ch2 = Layout<Plane, Kind::solid>::ch2;
 
 }  // namespace
 
-TEST_CASE("a wave speed that is not a number stops the run before the step, with the cell and its state") {
+TEST_CASE("after a wave speed that is not a number the step is taken again from what is conserved") {
   for (const std::string material : {"copper", "water"}) {
     const std::string text =
         report(material, [](Phase& phase, std::int32_t cell) { phase.primitive[ch2][cell] = -1e12; });
-    CAPTURE(text);
-    CHECK(text.find("a wave speed is not a finite number") != std::string::npos);
-    CHECK(text.find("'" + material + "'") != std::string::npos);
-    CHECK(text.find("step 1,") != std::string::npos);
-    CHECK(text.find("nan") == std::string::npos);
+    CHECK(text == "");
   }
 }
 
