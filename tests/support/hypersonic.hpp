@@ -28,5 +28,10 @@ inline std::string hypersonic_solids(int element) {
                     "[phase.aluminium]\nmaterial = \"aluminium\"\n[phase.copper]\nmaterial = \"copper\"\n", "copper",
                     "aluminium");
 }
+inline std::string hypersonic_solid_in_water(int element) {
+  return hypersonic(element, "3e4",
+                    "[phase.aluminium]\nmaterial = \"aluminium\"\n[phase.water]\nmaterial = \"water\"\n", "water",
+                    "aluminium");
+}
 
 }  // namespace cobasis::test

@@ -201,6 +201,7 @@ TEST_CASE("a step after which a state is not admissible is taken again, and noth
   SECTION("gas") { check(hypersonic_gas(4)); }
   SECTION("solid") { check(hypersonic_solid(3)); }
   SECTION("two solids with a sharp contact") { check(hypersonic_solids(4)); }
+  SECTION("a solid in water, some of whose fragments have no part of a face") { check(hypersonic_solid_in_water(4)); }
 }
 
 TEST_CASE("a step that fails at first order too is halved until it does not") {
