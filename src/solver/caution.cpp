@@ -20,8 +20,8 @@ Caution::Caution(const Mpi& mpi, const Mesh& mesh)
     : until_(mesh.n_cells(), 0), exchange_(mpi, mesh.neighbours, one_per_cell(mesh), 19) {}
 
 void Caution::spread(const Mesh& mesh, std::int64_t step, int failed) {
-  const std::int64_t until = step + duration * failed;
-  const int rings = first_rings * failed;
+  const std::int64_t until = step + duration;
+  const int rings = first_rings + 2 * std::max(0, failed - 2);
   for (const std::int32_t cell : noted_) until_[cell] = until;
   noted_.clear();
   for (int ring = 0; ring <= rings; ++ring) {

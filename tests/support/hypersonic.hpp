@@ -12,7 +12,8 @@ inline std::string hypersonic(int element, const std::string& speed, const std::
       "pressure = 1e5\nvelocity = [\"" + speed + "*sin(700*x+500*y)\", \"" + speed + "*cos(400*x-900*y)\"]\nfill = ";
   const std::string disc = "[[region]]\nshape = \"sphere\"\ncenter = [0.45, 0.5]\nradius = 0.3\n";
   return second_order + "mesh = \"@box.geo\"\nmesh_parameters = { n = 20, element = " + std::to_string(element) +
-         " }\nend_time = 1\n" + phases + "[[region]]\nshape = \"everywhere\"\n" + moving + "\"" + first + "\"\n" +
+         " }\nend_time = 1\n" + phases + "[[region]]\nshape = \"everywhere\"\n" +
+         (first == "surroundings" ? "fill = " : moving) + "\"" + first + "\"\n" +
          (second.empty() ? "" : disc + moving + "\"" + second + "\"\n") +
          "[boundary]\nleft = { type = \"periodic\", with = \"right\" }\n"
          "bottom = { type = \"periodic\", with = \"top\" }\n";
@@ -26,6 +27,16 @@ inline std::string hypersonic_solid(int element) {
 inline std::string hypersonic_solids(int element) {
   return hypersonic(element, "1e5",
                     "[phase.aluminium]\nmaterial = \"aluminium\"\n[phase.copper]\nmaterial = \"copper\"\n", "copper",
+                    "aluminium");
+}
+inline std::string hypersonic_solid_in_void(int element) {
+  return hypersonic(element, "1e4",
+                    "[phase.aluminium]\nmaterial = \"aluminium\"\n[phase.surroundings]\nvoid = { pressure = 1e5 }\n",
+                    "surroundings", "aluminium");
+}
+inline std::string hypersonic_solid_in_water(int element) {
+  return hypersonic(element, "3e4",
+                    "[phase.aluminium]\nmaterial = \"aluminium\"\n[phase.water]\nmaterial = \"water\"\n", "water",
                     "aluminium");
 }
 

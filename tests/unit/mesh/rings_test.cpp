@@ -80,7 +80,7 @@ TEST_CASE(
   CHECK(worst_volume < 1e-12);
 }
 
-TEST_CASE("a mesh below the axis, and a periodic pair across it, are refused, round-off at the axis is not") {
+TEST_CASE("a mesh below the axis and a periodic pair across it are refused while round-off at the axis is none") {
   const Folder folder;
   const std::string square = strip_geo(3, 3);
   CHECK_THAT(error_of(request_of(folder.write("a.geo", square + "Translate {0, -0.5, 0} { Surface{1}; }\n"))),
