@@ -30,6 +30,10 @@ class GeometryCheck {
                         boundary.group, scene()));
     }
     where_ = setup_.case_file + ": ";
+    check(setup_.gravity, "gravity");
+    if (geometry_ == Geometry::axisymmetric && setup_.gravity.y != 0)
+      add(fmt::format("gravity = [{}, {}] in an axisymmetric scene; allowed: second number 0, along the axis",
+                      setup_.gravity.x, setup_.gravity.y));
     for (const LineSetup& line : setup_.lines) {
       check(line.from, fmt::format("line \"{}\": from", line.name));
       check(line.to, fmt::format("line \"{}\": to", line.name));

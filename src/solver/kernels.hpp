@@ -5,7 +5,6 @@
 #include "solver/cell_update.hpp"
 #include "solver/contact_cells.hpp"
 #include "solver/reconstruct.hpp"
-#include "solver/setup.hpp"
 
 namespace cobasis {
 

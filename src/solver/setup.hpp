@@ -157,7 +157,8 @@ struct Setup {
   double end_time = 0;            ///< [s]
   double cfl = 0.8;
   Scheme scheme;
-  double alpha_min = 0;  ///< 0: absent phases are absent; > 0: traces everywhere
+  Point gravity{0, 0, 0};  ///< [m/s^2]
+  double alpha_min = 0;    ///< 0: absent phases are absent; > 0: traces everywhere
   std::optional<std::int64_t> max_steps;
   std::vector<PhaseSetup> phases;
   Contact default_contact = Contact::sliding;

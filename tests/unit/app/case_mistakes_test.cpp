@@ -313,6 +313,14 @@ TEST_CASE("an axis is one of an axisymmetric scene, which holds no more than a p
                 {"velocity of phase \"air\" has a third component in an axisymmetric scene"});
 }
 
+TEST_CASE("gravity across the axis, or out of the plane, is refused") {
+  CHECK_THAT(mistakes_in("scene = \"axisymmetric\"\ngravity = [9.81, 1]\n" + rest),
+             Contains("gravity = [9.81, 1] in an axisymmetric scene; allowed: second number 0"));
+  CHECK_THAT(mistakes_in("scene = \"plane\"\ngravity = [0, 0, -9.81]\n" + rest),
+             Contains("gravity = [0, 0, -9.81] in a plane scene; allowed: third number 0 or none"));
+  CHECK(mistakes_in("scene = \"axisymmetric\"\ngravity = [-9.81, 0]\n" + rest).empty());
+}
+
 TEST_CASE("all mistakes of a case are told together, in the order of the file") {
   std::string text = with(rest, "end_time = 1e-3", "end_time = -1");
   text = with(text, "material = \"copper\"", "material = \"coper\"");

@@ -150,10 +150,12 @@ TEST_CASE("contacts hold for a pair in either order, the default for the others"
 
 TEST_CASE("all optional keys of the top level and the output are read") {
   const Setup setup =
-      read_text("scene = \"space\"\ncfl = 2\nalpha_min = 1e-12\nmax_steps = 1e6\n" + rest +
+      read_text("scene = \"space\"\ngravity = [1, -9.81, 3]\ncfl = 2\nalpha_min = 1e-12\nmax_steps = 1e6\n" + rest +
                 "[scheme]\norder = 2\ninterface = \"diffuse\"\nlimiter = \"none\"\nlow_mach = \"on\"\n[output]\nfields "
                 "= \"all\"\nprecision = \"float64\"\nhistory_every = 3\ncount = 4\n");
   CHECK(setup.scene == Geometry::space);
+  CHECK(setup.gravity.y == -9.81);
+  CHECK(setup.gravity.z == 3);
   CHECK(setup.cfl == 2);
   CHECK(setup.alpha_min == 1e-12);
   CHECK(setup.scheme.order == 2);
