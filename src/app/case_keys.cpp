@@ -294,12 +294,27 @@ void add_boundaries_and_output(std::vector<KeyTable>& tables) {
        "",
        {{.key = "GROUP",
          .kind = KeyKind::word_or_table,
-         .words = {"wall", "symmetry", "axis", "transmissive", "inflow", "periodic"},
+         .words = {"wall", "no_slip", "symmetry", "axis", "transmissive", "outlet", "inflow", "periodic"},
          .meaning = "of a physical group, or of \"*\", every group not named; a word or { type = word, ... }"}}});
-  tables.push_back({"[boundary] type = wall", "slip wall", {}});
+  const KeyInfo wall_velocity{.key = "velocity",
+                              .kind = KeyKind::vector_field,
+                              .unit = "m/s",
+                              .fallback = "at rest",
+                              .meaning = "of the wall; the mesh stays, and what a wall that moves displaces enters"};
+  tables.push_back({"[boundary] type = wall", "frictionless: of a velocity the normal part counts", {wall_velocity}});
+  tables.push_back({"[boundary] type = no_slip",
+                    "solids are bonded to it; before fluids, which have no viscosity, a frictionless wall",
+                    {wall_velocity}});
   tables.push_back({"[boundary] type = symmetry", "mirror", {}});
   tables.push_back({"[boundary] type = axis", "y = 0 of an axisymmetric scene, and nothing else", {}});
   tables.push_back({"[boundary] type = transmissive", "zero gradient", {}});
+  tables.push_back({"[boundary] type = outlet",
+                    "an opening; of a solid the normal stress is given and shear passes",
+                    {{.key = "pressure",
+                      .unit = "Pa",
+                      .range = any_number,
+                      .required = true,
+                      .meaning = "outside; where the flow leaves supersonic, it does not count"}}});
   tables.push_back({"[boundary] type = inflow", "besides, the keys of a filling", {}});
   tables.push_back({"[boundary] type = periodic",
                     "",

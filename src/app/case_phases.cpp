@@ -142,6 +142,33 @@ std::vector<KeyInfo> together(std::vector<KeyInfo> keys, const KeyTable& more) {
   return keys;
 }
 
+const std::string* text_at(const TomlTable& table, std::string_view key) {
+  const TomlEntry* entry = find_entry(table, key);
+  return entry ? std::get_if<std::string>(&entry->value.data) : nullptr;
+}
+
+std::vector<KeyInfo> keys_with(std::vector<KeyInfo> keys, std::string_view title, const std::string* word,
+                               const std::vector<std::string>& words) {
+  if (word && std::ranges::find(words, *word) != words.end())
+    return together(std::move(keys), keys_of(fmt::format("{} = {}", title, *word)));
+  for (const std::string& any : words) {
+    KeyTable table = keys_of(fmt::format("{} = {}", title, any));
+    for (KeyInfo& key : table.keys) key.required = false;
+    keys = together(std::move(keys), table);
+  }
+  return keys;
+}
+
+TomlTable table_of(const TomlEntry& word_or_table) {
+  const auto* keys = std::get_if<TomlTable>(&word_or_table.value.data);
+  return keys ? *keys : TomlTable{{"type", word_or_table.where, word_or_table.value}};
+}
+
+KeyInfo type_key(const KeyInfo& word_or_table) {
+  return {
+      .key = "type", .kind = KeyKind::word, .words = word_or_table.words, .required = true, .meaning = "what it is"};
+}
+
 std::optional<int> CaseReading::phase(const std::string& name, const Place& where) {
   const auto found = std::ranges::find(setup.phases, name, &PhaseSetup::name);
   if (found != setup.phases.end()) return static_cast<int>(found - setup.phases.begin());

@@ -78,17 +78,27 @@ struct RegionSetup {
   std::string where;  ///< file:line, for messages
 };
 
-struct Wall {};            ///< slip wall: mirrored normal velocity and cobasis
+/// Frictionless. At rest it mirrors normal velocity and cobasis; of its velocity [m/s] the normal part counts.
+struct Wall {
+  std::optional<std::array<Expression, 3>> velocity;
+};
+/// Solids are bonded to it; before fluids, which have no viscosity, it is a frictionless wall.
+struct NoSlip {
+  std::array<Expression, 3> velocity;  ///< [m/s]
+};
 struct Symmetry {};        ///< the same mirror
 struct AxisOfSymmetry {};  ///< y = 0 of an axisymmetric scene
 struct Transmissive {};    ///< zero gradient
+struct Outlet {
+  double pressure = 0;
+};  ///< an opening to this pressure [Pa]; zero gradient where the flow is supersonic
 struct Inflow {
   Filling filling;
 };
 struct Periodic {
   std::string with;
 };  ///< the partner group
-using Boundary = std::variant<Wall, Symmetry, AxisOfSymmetry, Transmissive, Inflow, Periodic>;
+using Boundary = std::variant<Wall, NoSlip, Symmetry, AxisOfSymmetry, Transmissive, Outlet, Inflow, Periodic>;
 
 struct BoundarySetup {
   std::string group;  ///< physical group, or "*": every group not named

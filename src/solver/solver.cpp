@@ -137,6 +137,7 @@ double Solver::sweep_first_order() {
   begin_sweeps();
   sweep(Part::inside);
   sweep(Part::mirror);
+  sweep(Part::prescribed);
   clock_.inside_swept = seconds() - clock_.step_start;
   receive_halo();
   clock_.halo_received = seconds() - clock_.step_start;
@@ -171,6 +172,7 @@ double Solver::sweep_centred(double until) {
     begin_sweeps();
     sweep(Part::inside);
     sweep(Part::mirror);
+    sweep(Part::prescribed);
     clock_.inside_swept = seconds() - clock_.step_start;
     if (second) reconstruction_->receive(mesh_, fields_);
     clock_.halo_received = seconds() - clock_.step_start;
@@ -204,19 +206,25 @@ double Solver::stable_step() {
 }
 
 void Solver::sweep(Part part) {
+  if (part == Part::prescribed && faces_.prescribed.outlet.empty()) return;
   const Timed timed(clock_.kernels), timed_sweep(clock_.sweeps);
   if (fields_.multiphase()) {
     interfaces_->sort(faces_, fields_, part);
     interfaces_->find_contacts(faces_, fields_, part);
   }
   const int n = fields_.n_phases();
-  const bool mirror = part == Part::mirror;
   for (int k = 0; k < n; ++k) {
     Phase& phase = fields_.phases[k];
     if (phase.is_void) continue;
-    (mirror ? kernels_[k].sweep_pure_mirror : kernels_[k].sweep_pure)(faces_, phase, interfaces_->pure(k, part));
-    if (fields_.multiphase())
-      (mirror ? kernels_[k].sweep_mixed_mirror : kernels_[k].sweep_mixed)(faces_, phase, interfaces_->mixed(k, part));
+    const PhaseKernels& of = kernels_[k];
+    const auto pure = part == Part::mirror       ? of.sweep_pure_mirror
+                      : part == Part::prescribed ? of.sweep_pure_prescribed
+                                                 : of.sweep_pure;
+    const auto mixed = part == Part::mirror       ? of.sweep_mixed_mirror
+                       : part == Part::prescribed ? of.sweep_mixed_prescribed
+                                                  : of.sweep_mixed;
+    pure(faces_, phase, interfaces_->pure(k, part));
+    if (fields_.multiphase()) mixed(faces_, phase, interfaces_->mixed(k, part));
   }
   for (int l = 0; l < n; ++l) {
     for (int m = 0; m < n; ++m) {

@@ -100,10 +100,12 @@ Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
   boundaries_ = resolve_boundaries(setup_, mesh_);
   check_axis(setup_, mesh_, boundaries_, mpi_);
   faces_ = make_faces(mesh_);
-  std::vector<FaceRange> inside{{0, mesh_.n_interior_faces}}, mirrors;
+  prescribe(mesh_, boundaries_, faces_);
+  std::vector<FaceRange> inside{{0, mesh_.n_interior_faces}}, mirrors, prescribed;
   for (std::size_t i = 0; i < boundaries_.size(); ++i) {
     const BoundaryGroup& group = mesh_.boundary_groups[i];
-    (is_mirror_image(boundaries_[i]) ? mirrors : inside).push_back({group.first, group.last});
+    const bool is_mirror = is_mirror_image(boundaries_[i]), is_given = is_prescribed(boundaries_[i]);
+    (is_mirror ? mirrors : is_given ? prescribed : inside).push_back({group.first, group.last});
     // zero gradient: the cell is its own neighbour; behind a mirror nothing is read
     if (!std::holds_alternative<Inflow>(boundaries_[i]))
       for (std::int32_t face = group.first; face < group.last; ++face) faces_.right[face] = faces_.left[face];
@@ -117,10 +119,12 @@ Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
                                  Interfaces::most_phases));
   allocate();
   interfaces_.emplace(faces_, fields_, std::move(inside), std::move(mirrors),
-                      std::vector<FaceRange>{{mesh_.n_interior_faces, mesh_.first_boundary_face()}});
+                      std::vector<FaceRange>{{mesh_.n_interior_faces, mesh_.first_boundary_face()}},
+                      std::move(prescribed));
   set_initial_state();
   if (!fields_.multiphase())
-    for (const Part part : {Part::inside, Part::mirror, Part::halo}) interfaces_->sort(faces_, fields_, part);
+    for (const Part part : {Part::inside, Part::mirror, Part::halo, Part::prescribed})
+      interfaces_->sort(faces_, fields_, part);
   if (setup_.scheme.order == 2) reconstruction_.emplace(mpi_, mesh_, faces_, fields_, kernels_, boundaries_);
   const bool sharp = setup_.scheme.interface == InterfaceTreatment::sharp;
   if (fields_.multiphase() && setup_.scheme.interface != InterfaceTreatment::diffuse) {

@@ -167,7 +167,7 @@ TEST_CASE("unknown names of materials, phases, shapes and boundaries are refused
                 {"unknown phase", "\"copper\"?"});
   check_replaced("shape = \"everywhere\"", "shape = \"spere\"\ncenter = [0, 0]\nradius = 1",
                  {"everywhere, half_space, box, sphere", "did you mean \"sphere\"?"});
-  check_replaced("\"wall\"", "\"wal\"", {"wall, symmetry", "did you mean \"wall\"?"});
+  check_replaced("\"wall\"", "\"wal\"", {"wall, no_slip, symmetry", "did you mean \"wall\"?"});
   check_replaced("\"wall\"", "{ type = \"transmisive\" }", {"did you mean \"transmissive\"?"});
   check_mistake(with(rest, "material = \"air\"", "eos = { type = \"ideal\", gamma = 1.4 }\ndensity = 1"), "eos",
                 {"stiffened_gas, ideal_gas", "did you mean \"ideal_gas\"?"});
@@ -311,6 +311,19 @@ TEST_CASE("an axis is one of an axisymmetric scene, which holds no more than a p
   CHECK_THROWS_WITH(check_for_geometry(read_text(axis), Geometry::plane), Contains("in a plane scene"));
   check_mistake(with(in("axisymmetric"), "pressure", "velocity = [0, 0, 1]\npressure"), "[[region]]",
                 {"velocity of phase \"air\" has a third component in an axisymmetric scene"});
+}
+
+TEST_CASE("an outlet needs a pressure that all phases can have, no slip a solid, a plane wall a plane velocity") {
+  check_replaced("\"*\" = \"wall\"", "\"*\" = \"outlet\"", {"missing key \"pressure\""});
+  check_replaced("\"*\" = \"wall\"", "\"*\" = { type = \"outlet\", pressure = 0 }",
+                 {"pressure = 0 outside phase \"air\"; allowed: 0 < pressure [Pa]"});
+  check_replaced("\"*\" = \"wall\"", "\"*\" = { type = \"outlet\", velocity = [1, 2], pressure = 1 }",
+                 {"unknown key \"velocity\"", "allowed: type, pressure"});
+  check_mistake(with(with(rest, "\"*\" = \"wall\"", "\"*\" = \"no_slip\""), "\"copper\"", "\"water\""), "\"*\"",
+                {"\"no_slip\" in a scene of fluids", "allowed: wall"});
+  CHECK_THAT(mistakes_in("scene = \"plane\"\n" +
+                         with(rest, "\"*\" = \"wall\"", "\"*\" = { type = \"wall\", velocity = [0, 0, 1] }")),
+             Contains("velocity of boundary \"*\" has a third component in a plane scene"));
 }
 
 TEST_CASE("gravity across the axis, or out of the plane, is refused") {

@@ -132,6 +132,20 @@ TEST_CASE("boundaries are words or tables") {
   CHECK(inflow.states[0].velocity[0]({0, 3, 0}) == 3);
 }
 
+TEST_CASE("walls may move, solids cling to walls without slip, outlets have a pressure") {
+  const std::string text =
+      with(rest, "\"*\" = \"wall\"",
+           "a = \"wall\"\nb = { type = \"wall\", velocity = [\"y\", 2] }\nc = \"no_slip\"\n"
+           "d = { type = \"no_slip\", velocity = [0, 3] }\ne = { type = \"outlet\", pressure = 5 }");
+  const auto boundaries = read_text(text).boundaries;
+  REQUIRE(boundaries.size() == 5);
+  CHECK_FALSE(std::get<Wall>(boundaries[0].boundary).velocity);
+  CHECK((*std::get<Wall>(boundaries[1].boundary).velocity)[0]({0, 4, 0}) == 4);
+  CHECK(std::get<NoSlip>(boundaries[2].boundary).velocity[1].constant() == 0);
+  CHECK(std::get<NoSlip>(boundaries[3].boundary).velocity[1].constant() == 3);
+  CHECK(std::get<Outlet>(boundaries[4].boundary).pressure == 5);
+}
+
 TEST_CASE("a periodic pair named twice is one pair") {
   const std::string text = with(rest, "\"*\" = \"wall\"",
                                 "a = { type = \"periodic\", with = \"b\" }\nb = { type = \"periodic\", with = \"a\" }");
