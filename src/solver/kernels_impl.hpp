@@ -8,11 +8,9 @@ namespace cobasis {
 template <class G, Kind K, class Real, Around A, bool Averaged>
 std::int64_t reconstruct_phase(Phase& phase, const Faces& faces, const Stencil& stencil, const CellList& cells,
                                std::int32_t n, const ReconstructionOptions& options) {
-  return std::visit(
-      [&]<class EquationOfState>(const EquationOfState& eos) {
-        return reconstruct<G, K, Real, EquationOfState, A, Averaged>(phase, eos, faces, stencil, cells, n, options);
-      },
-      phase.eos);
+  return visit_compiled(phase.eos, [&]<class EquationOfState>(const EquationOfState& eos) {
+    return reconstruct<G, K, Real, EquationOfState, A, Averaged>(phase, eos, faces, stencil, cells, n, options);
+  });
 }
 
 template <class G, Kind K, class Real>
@@ -35,7 +33,7 @@ PhaseKernels phase_kernels_of() {
   PhaseKernels kernels{
       .primitives =
           [](Phase& phase, const CellList& cells, std::int32_t n, BadCells& bad) {
-            std::visit([&](const auto& eos) { primitives<G, K, Real>(phase, eos, cells, n, bad); }, phase.eos);
+            visit_compiled(phase.eos, [&](const auto& eos) { primitives<G, K, Real>(phase, eos, cells, n, bad); });
           },
       .sweep_pure = &sweep_same<G, K, Real, false, Beyond::cell, Order>,
       .sweep_pure_mirror = &sweep_same<G, K, Real, false, Beyond::mirror, Order>,

@@ -326,6 +326,14 @@ TEST_CASE("an outlet needs a pressure that all phases can have, no slip a solid,
              Contains("velocity of boundary \"*\" has a third component in a plane scene"));
 }
 
+TEST_CASE("a density beyond what an equation of state can hold is refused") {
+  const std::string dense =
+      with(rest, "material = \"air\"",
+           "density = 1600\neos = { type = \"noble_abel_stiffened_gas\", gamma = 1.19, p_inf = 7.028e8, b = 6.61e-4 }");
+  check_mistake(dense, "[[region]]", {"density 1600 of phase \"air\"; allowed: below 1512.8"});
+  CHECK(mistakes_in(with(dense, "1600", "1000")).empty());
+}
+
 TEST_CASE("gravity across the axis, or out of the plane, is refused") {
   CHECK_THAT(mistakes_in("scene = \"axisymmetric\"\ngravity = [9.81, 1]\n" + rest),
              Contains("gravity = [9.81, 1] in an axisymmetric scene; allowed: second number 0"));

@@ -54,6 +54,20 @@ TEST_CASE("another type of equation of state replaces the material's") {
   CHECK(phase.density == 1.19);
 }
 
+TEST_CASE("every equation of state is read with its own keys") {
+  const auto eos_of = [](const std::string& keys) {
+    return read_text(with(rest, "material = \"air\"", "density = 900\neos = { type = " + keys + " }")).phases.at(0).eos;
+  };
+  const auto gas = std::get<NobleAbelStiffenedGas>(
+      eos_of("\"noble_abel_stiffened_gas\", gamma = 1.19, p_inf = 7.028e8, b = 6.61e-4"));
+  CHECK(gas.p_inf == 7.028e8);
+  CHECK(gas.b == 6.61e-4);
+  const auto law =
+      std::get<MieGruneisen>(eos_of("\"mie_gruneisen\", rho0 = 8930, c0 = 3940, s = 1.489, gamma0 = 2.02"));
+  CHECK(law.rho0 == 8930);
+  CHECK(law.gamma0 == 2.02);
+}
+
 TEST_CASE("a phase without a material is what its own keys say") {
   const std::string keys = "eos = { type = \"ideal_gas\", gamma = 1.3 }\nelastic = { mu = 5, rho0 = 7 }";
   const PhaseSetup phase = read_text(with(rest, "material = \"copper\"", keys)).phases.at(1);
