@@ -200,16 +200,28 @@ void add_phases(std::vector<KeyTable>& tables) {
       {"void",
        "",
        {{.key = "pressure", .unit = "Pa", .range = not_negative, .required = true, .meaning = "on the free surface"}}});
-  const std::vector<std::string> contacts{"sliding", "adherence"};
-  tables.push_back(
-      {"[contact]",
-       "",
-       {{.key = "default", .kind = KeyKind::word, .words = contacts, .fallback = "sliding", .meaning = "of every pair"},
-        {.key = "A-B",
-         .kind = KeyKind::word,
-         .words = contacts,
-         .fallback = "default",
-         .meaning = "of phases A and B"}}});
+  const std::vector<std::string> contacts{"sliding", "adherence", "friction"};
+  tables.push_back({"[contact]",
+                    "",
+                    {{.key = "default",
+                      .kind = KeyKind::word_or_table,
+                      .words = contacts,
+                      .fallback = "sliding",
+                      .meaning = "of every pair; only solids can do other than slide"},
+                     {.key = "A-B",
+                      .kind = KeyKind::word_or_table,
+                      .words = contacts,
+                      .fallback = "default",
+                      .meaning = "of phases A and B; a word or { type = word, ... }"}}});
+  tables.push_back({"[contact] type = sliding", "no shear stress", {}});
+  tables.push_back({"[contact] type = adherence", "solids are bonded", {}});
+  tables.push_back({"[contact] type = friction",
+                    "solids are bonded, or slip under Coulomb's shear stress; its heat stays half on either side",
+                    {{.key = "coefficient",
+                      .unit = "-",
+                      .range = {0, infinity, true, false},
+                      .required = true,
+                      .meaning = "largest shear stress over the pressure -sigma_nn of the contact"}}});
 }
 
 void add_regions(std::vector<KeyTable>& tables) {

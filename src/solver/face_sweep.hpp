@@ -17,6 +17,7 @@ struct PairList {
   CompactList<std::int32_t> face;
   CompactList<double> share;
   std::int32_t side = 0;
+  double friction = 0;  ///< Coulomb's coefficient, of solids that rub
 };
 
 /// Where a sweep finds the state of one side: in the cells there (first order) …
@@ -361,7 +362,28 @@ auto cell_velocity(const Phase& phase, const Indices<Real>& cell, const Frame<G,
     return into_frame(frame, load_velocity<G, K>(CellSide<Real>{phase, cell}));
 }
 
-enum class Tangent { free, bonded };  ///< sliding phases, a fluid or a void are free; solids that adhere are bonded
+/// Sliding phases, a fluid or a void are free; solids that adhere are bonded; solids with friction rub.
+enum class Tangent { free, bonded, rubbing };
+
+/// What acts along a contact of solids: stress and velocities, and the power that goes from m to l per unit area. Heat
+/// of friction stays in equal parts on both sides: with the mean velocity of the surfaces, none is lost.
+template <class G, class Real>
+struct TangentialContact {
+  ShearStar<G, Real> shear;
+  Real power_l, power_m;
+};
+template <Tangent T, class G, class Real>
+TangentialContact<G, Real> tangential_contact(const SolidFace<G, Real>& l, const SolidFace<G, Real>& m,
+                                              [[maybe_unused]] const Real& P_star, [[maybe_unused]] double friction) {
+  if constexpr (T == Tangent::bonded) {
+    const ShearStar<G, Real> shear = bonded_shear(l, m);
+    return {shear, dot(shear.tau, shear.w_l), dot(shear.tau, shear.w_r)};
+  } else {
+    const ShearStar<G, Real> shear = rubbing_shear(l, m, friction * larger(P_star, Real(0.0)));
+    const Real power = 0.5 * dot(shear.tau, shear.w_l + shear.w_r);
+    return {shear, power, power};
+  }
+}
 
 /// Contact of two different phases, l left and m right, along the face normal.
 template <class G, Kind Kl, Kind Km, Tangent T, class Real, int Order>
@@ -395,11 +417,12 @@ COBASIS_KERNEL void sweep_pair(Faces& faces, Phase& phase_l, Phase& phase_m, con
                      -(weight_m * contact.convected_energy), -(weight_m * star.u_star));
 
     [[maybe_unused]] ShearStar<G, Real> shear;
-    if constexpr (T == Tangent::bonded) {
-      shear = bonded_shear(l, m);
+    if constexpr (T != Tangent::free) {
+      const auto tangential = tangential_contact<T>(l, m, star.P_star, list.friction);
+      shear = tangential.shear;
       const Vector<G, Real> force = weight * out_of_frame(frame, shear.tau);
-      slots_l.add_gain(0, zero, force, weight * dot(shear.tau, shear.w_l), zero);
-      slots_m.add_gain(1, zero, (-1.0) * force, -(weight * dot(shear.tau, shear.w_r)), zero);
+      slots_l.add_gain(0, zero, force, weight * tangential.power_l, zero);
+      slots_m.add_gain(1, zero, (-1.0) * force, -(weight * tangential.power_m), zero);
     } else {
       if constexpr (Kl == Kind::solid) shear.w_l = free_surface_velocity(l, Real(1.0));
       if constexpr (Km == Kind::solid) shear.w_r = free_surface_velocity(m, Real(-1.0));

@@ -35,6 +35,7 @@ class Interfaces {
   Segment pure(int k, Part part) const { return pure_[k][static_cast<int>(part)]; }
   Segment mixed(int k, Part part) const { return mixed_[k][static_cast<int>(part)]; }
   const PairList& pair(int l, int m) const { return pairs_[l * n_phases_ + m]; }
+  void set_friction(int l, int m, double coefficient) { pairs_[l * n_phases_ + m].friction = coefficient; }
   Segment pair_segment(int l, int m, Part part) const {
     return pair_segments_[l * n_phases_ + m][static_cast<int>(part)];
   }

@@ -79,8 +79,9 @@ PairKernels pair_kernels(Kind l, Kind m, Tangent tangent, int order) {
   if (l == fluid && m == fluid) return pair_kernels_of<G, fluid, fluid, Tangent::free, Real>(order);
   if (l == fluid) return pair_kernels_of<G, fluid, solid, Tangent::free, Real>(order);
   if (m == fluid) return pair_kernels_of<G, solid, fluid, Tangent::free, Real>(order);
-  return tangent == Tangent::bonded ? pair_kernels_of<G, solid, solid, Tangent::bonded, Real>(order)
-                                    : pair_kernels_of<G, solid, solid, Tangent::free, Real>(order);
+  if (tangent == Tangent::bonded) return pair_kernels_of<G, solid, solid, Tangent::bonded, Real>(order);
+  if (tangent == Tangent::rubbing) return pair_kernels_of<G, solid, solid, Tangent::rubbing, Real>(order);
+  return pair_kernels_of<G, solid, solid, Tangent::free, Real>(order);
 }
 
 }  // namespace cobasis

@@ -22,7 +22,15 @@ enum class Geometry { plane, axisymmetric, space };
 constexpr const char* name_of(Geometry geometry) {
   return geometry == Geometry::plane ? "plane" : geometry == Geometry::axisymmetric ? "axisymmetric" : "space";
 }
-enum class Contact { sliding, adherence };
+/// Between two solids; others slide.
+struct Contact {
+  enum Kind { sliding, adherence, friction };
+  Kind kind = sliding;
+  double coefficient = 0;  ///< Coulomb's, of friction
+
+  Contact(Kind k = sliding, double f = 0) : kind(k), coefficient(f) {}  // NOLINT: a kind without numbers is a contact
+  bool operator==(const Contact&) const = default;
+};
 
 struct PhaseSetup {
   std::string name;
@@ -171,7 +179,7 @@ struct Setup {
   double alpha_min = 0;    ///< 0: absent phases are absent; > 0: traces everywhere
   std::optional<std::int64_t> max_steps;
   std::vector<PhaseSetup> phases;
-  Contact default_contact = Contact::sliding;
+  Contact default_contact;
   std::map<std::pair<int, int>, Contact> contacts;  ///< by phase indices, smaller first
   std::vector<RegionSetup> regions;                 ///< painted in order
   std::vector<BoundarySetup> boundaries;

@@ -86,7 +86,10 @@ void pick_kernels(const Setup& setup, bool scalar, std::vector<PhaseKernels>& ph
     phases[l] = scalar ? phase_kernels<G, double>(kind(l), order) : phase_kernels<G, Pack>(kind(l), order);
     for (int m = 0; m < n; ++m) {
       if (m == l || setup.phases[m].is_void()) continue;
-      const Tangent tangent = setup.contact(l, m) == Contact::adherence ? Tangent::bonded : Tangent::free;
+      const Contact::Kind contact = setup.contact(l, m).kind;
+      const Tangent tangent = contact == Contact::adherence  ? Tangent::bonded
+                              : contact == Contact::friction ? Tangent::rubbing
+                                                             : Tangent::free;
       pairs[l * n + m] = scalar ? pair_kernels<G, double>(kind(l), kind(m), tangent, order)
                                 : pair_kernels<G, Pack>(kind(l), kind(m), tangent, order);
     }
@@ -121,6 +124,9 @@ Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
   interfaces_.emplace(faces_, fields_, std::move(inside), std::move(mirrors),
                       std::vector<FaceRange>{{mesh_.n_interior_faces, mesh_.first_boundary_face()}},
                       std::move(prescribed));
+  for (int l = 0; l < fields_.n_phases(); ++l)
+    for (int m = 0; m < fields_.n_phases(); ++m)
+      if (l != m) interfaces_->set_friction(l, m, setup_.contact(l, m).coefficient);
   set_initial_state();
   if (!fields_.multiphase())
     for (const Part part : {Part::inside, Part::mirror, Part::halo, Part::prescribed})

@@ -72,7 +72,7 @@ TEST_CASE("keys and words of features that do not exist are refused like unknown
   check_mistake(rest + "[scheme]\norder = 3\n", "order", {"order = 3; allowed: a whole number"});
   check_mistake(rest + "[scheme]\ninterface = \"blurred\"\n", "interface", {"allowed: sharp, compressed, diffuse"});
   check_mistake(rest + "[scheme]\nlimiter = \"minmod\"\n", "limiter", {"allowed: monotone, none"});
-  check_mistake(rest + "[contact]\ndefault = \"friction\"\n", "default", {"allowed: sliding, adherence"});
+  check_mistake(rest + "[contact]\ndefault = \"glue\"\n", "default", {"allowed: sliding, adherence, friction"});
   CHECK(mistakes_in(rest + "[scheme]\norder = 1\n").empty());
 }
 
@@ -332,6 +332,16 @@ TEST_CASE("a density beyond what an equation of state can hold is refused") {
            "density = 1600\neos = { type = \"noble_abel_stiffened_gas\", gamma = 1.19, p_inf = 7.028e8, b = 6.61e-4 }");
   check_mistake(dense, "[[region]]", {"density 1600 of phase \"air\"; allowed: below 1512.8"});
   CHECK(mistakes_in(with(dense, "1600", "1000")).empty());
+}
+
+TEST_CASE("friction needs a coefficient, and two solids") {
+  check_mistake(rest + "[contact]\ndefault = \"friction\"\n", "default", {"missing key \"coefficient\""});
+  check_mistake(rest + "[contact]\ndefault = { type = \"friction\", coefficient = -1 }\n", "default",
+                {"coefficient = -1", "0 <= coefficient"});
+  check_mistake(rest + "[contact]\ndefault = { type = \"sliding\", coefficient = 1 }\n", "default",
+                {"unknown key \"coefficient\"", "allowed: type"});
+  check_mistake(rest + "[contact]\n\"air-copper\" = { type = \"friction\", coefficient = 1 }\n", "\"air-copper\"",
+                {"friction of \"air-copper\", of which one is a fluid; allowed: sliding"});
 }
 
 TEST_CASE("gravity across the axis, or out of the plane, is refused") {

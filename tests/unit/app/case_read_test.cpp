@@ -176,6 +176,14 @@ TEST_CASE("contacts hold for a pair in either order, the default for the others"
   CHECK(read_text(rest).contact(0, 1) == Contact::sliding);
 }
 
+TEST_CASE("contacts with friction have a coefficient") {
+  const std::string two = with(rest, "material = \"air\"", "material = \"aluminium\"");
+  const auto contact = [&](const std::string& keys) { return read_text(two + "[contact]\n" + keys).contact(1, 0); };
+  CHECK(contact("default = { type = \"friction\", coefficient = 0.3 }") == Contact(Contact::friction, 0.3));
+  CHECK(contact("\"copper-air\" = { type = \"friction\", coefficient = 0 }") == Contact(Contact::friction, 0));
+  CHECK(contact("\"air-copper\" = { type = \"adherence\" }") == Contact::adherence);
+}
+
 TEST_CASE("all optional keys of the top level and the output are read") {
   const Setup setup =
       read_text("scene = \"space\"\ngravity = [1, -9.81, 3]\ncfl = 2\nalpha_min = 1e-12\nmax_steps = 1e6\n" + rest +
