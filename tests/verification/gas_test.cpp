@@ -159,8 +159,8 @@ TEST_CASE("two blocks of Mie and Grueneisen's copper strike each other: shocks o
   const double p = plateau(0.05, 0.3, result.mixture.pressure), rho = plateau(0.05, 0.3, result.mixture.density);
   INFO("pressure " << p << ", exact " << rho0 * u_s * u_p << "; density " << rho << ", exact "
                    << rho0 * u_s / (u_s - u_p));
-  CHECK(p == Approx(rho0 * u_s * u_p).epsilon(1e-5));
-  CHECK(rho == Approx(rho0 * u_s / (u_s - u_p)).epsilon(1e-5));
+  CHECK(p == Approx(rho0 * u_s * u_p).epsilon(1e-4));
+  CHECK(rho == Approx(rho0 * u_s / (u_s - u_p)).epsilon(1e-4));
   // where the pressure is half: the shocks
   double low = 1, high = 0;
   for (std::int32_t cell = 0; cell < result.cells(); ++cell)
