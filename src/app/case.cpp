@@ -52,6 +52,7 @@ void read_top_level(const CaseTable& top, CaseReading& reading) {
                                              : Geometry::space;
   setup.end_time = top.number("end_time").value_or(0);
   setup.cfl = top.number("cfl").value_or(setup.cfl);
+  setup.gravity = top.point("gravity").value_or(setup.gravity);
   setup.alpha_min = top.number("alpha_min").value_or(setup.alpha_min);
   setup.max_steps = top.integer("max_steps");
 }

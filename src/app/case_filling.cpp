@@ -76,6 +76,12 @@ void check_state(const PhaseSetup& phase, const PhaseState& state, const Sources
   else if (from.pressure_is_right && !(state.pressure > lowest))
     mistakes.add(from.pressure, fmt::format("pressure = {} of phase \"{}\"; allowed: {} < pressure [Pa]",
                                             state.pressure, phase.name, lowest));
+  const double densest = std::visit([](const auto& eos) { return eos.densest(); }, phase.eos);
+  double density = state.density.value_or(phase.density.value_or(0));
+  if (!state.density && state.cobasis) density = phase.elastic->rho0 * determinant(*state.cobasis);
+  if (!(density < densest))
+    mistakes.add(from.state, fmt::format("density {} of phase \"{}\"; allowed: below {} [kg/m^3], by its eos", density,
+                                         phase.name, densest));
   if (!phase.is_solid() && !from.has_density && !phase.density)
     mistakes.add(from.state, fmt::format("no density of the fluid \"{0}\"; allowed: density or phase.{0}.density here, "
                                          "density or material in [phase.{0}]",

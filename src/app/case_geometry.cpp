@@ -23,13 +23,21 @@ class GeometryCheck {
     for (const BoundarySetup& boundary : setup_.boundaries) {
       where_ = boundary.where + ": ";
       if (const auto* inflow = std::get_if<Inflow>(&boundary.boundary)) check(inflow->filling);
+      if (const auto* wall = std::get_if<Wall>(&boundary.boundary); wall && wall->velocity)
+        check_velocity(*wall->velocity, fmt::format("boundary \"{}\"", boundary.group));
+      if (const auto* wall = std::get_if<NoSlip>(&boundary.boundary))
+        check_velocity(wall->velocity, fmt::format("boundary \"{}\"", boundary.group));
       if (std::holds_alternative<AxisOfSymmetry>(boundary.boundary) && geometry_ != Geometry::axisymmetric)
         add(
-            fmt::format("boundary \"{}\" = \"axis\" in {} scene; allowed: wall, symmetry, transmissive, inflow, "
-                        "periodic, or scene = \"axisymmetric\"",
+            fmt::format("boundary \"{}\" = \"axis\" in {} scene; allowed: wall, no_slip, symmetry, "
+                        "transmissive, outlet, inflow, periodic, or scene = \"axisymmetric\"",
                         boundary.group, scene()));
     }
     where_ = setup_.case_file + ": ";
+    check(setup_.gravity, "gravity");
+    if (geometry_ == Geometry::axisymmetric && setup_.gravity.y != 0)
+      add(fmt::format("gravity = [{}, {}] in an axisymmetric scene; allowed: second number 0, along the axis",
+                      setup_.gravity.x, setup_.gravity.y));
     for (const LineSetup& line : setup_.lines) {
       check(line.from, fmt::format("line \"{}\": from", line.name));
       check(line.to, fmt::format("line \"{}\": to", line.name));
@@ -61,6 +69,12 @@ class GeometryCheck {
       add(fmt::format("{} = [{}, {}, {}] in {} scene; allowed: third number 0 or none", what, x.x, x.y, x.z, scene()));
   }
 
+  void check_velocity(const std::array<Expression, 3>& velocity, const std::string& of) {
+    const Expression& w = velocity[2];
+    if (plane_ && (!w.is_constant() || w.constant() != 0))
+      add(fmt::format("velocity of {} has a third component in {} scene; allowed: 2 components, or 0", of, scene()));
+  }
+
   void check(const Everywhere&) {}
   void check(const PhysicalGroup&) {}
   void check(const Inside&) {}
@@ -90,11 +104,7 @@ class GeometryCheck {
     for (std::size_t k = 0; plane_ && k < filling.states.size(); ++k) {
       if (filling.alpha[k] == 0) continue;
       const PhaseState& state = filling.states[k];
-      const Expression& w = state.velocity[2];
-      if (!w.is_constant() || w.constant() != 0) {
-        add(fmt::format("velocity of phase \"{}\" has a third component in {} scene; allowed: 2 components, or 0",
-                        setup_.phases[k].name, scene()));
-      }
+      check_velocity(state.velocity, fmt::format("phase \"{}\"", setup_.phases[k].name));
       if (!state.cobasis) continue;
       const auto& e = *state.cobasis;
       if (e[2][0] != 0 || e[2][1] != 0 || e[0][2] != 0 || e[1][2] != 0)

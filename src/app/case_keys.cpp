@@ -93,6 +93,11 @@ std::vector<KeyTable> top_level() {
          .range = {0, 2, false, true},
          .fallback = fmt::format("{}", defaults.cfl),
          .meaning = "time step = cfl min 2V / sum A lambda; 1 is half a cell of squares per step"},
+        {.key = "gravity",
+         .kind = KeyKind::point,
+         .unit = "m/s^2",
+         .fallback = "none",
+         .meaning = "acceleration of all phases; along the axis of an axisymmetric scene"},
         {.key = "alpha_min",
          .unit = "-",
          .range = {1e-12, 0.1, true, true, true},
@@ -195,16 +200,28 @@ void add_phases(std::vector<KeyTable>& tables) {
       {"void",
        "",
        {{.key = "pressure", .unit = "Pa", .range = not_negative, .required = true, .meaning = "on the free surface"}}});
-  const std::vector<std::string> contacts{"sliding", "adherence"};
-  tables.push_back(
-      {"[contact]",
-       "",
-       {{.key = "default", .kind = KeyKind::word, .words = contacts, .fallback = "sliding", .meaning = "of every pair"},
-        {.key = "A-B",
-         .kind = KeyKind::word,
-         .words = contacts,
-         .fallback = "default",
-         .meaning = "of phases A and B"}}});
+  const std::vector<std::string> contacts{"sliding", "adherence", "friction"};
+  tables.push_back({"[contact]",
+                    "",
+                    {{.key = "default",
+                      .kind = KeyKind::word_or_table,
+                      .words = contacts,
+                      .fallback = "sliding",
+                      .meaning = "of every pair; only solids can do other than slide"},
+                     {.key = "A-B",
+                      .kind = KeyKind::word_or_table,
+                      .words = contacts,
+                      .fallback = "default",
+                      .meaning = "of phases A and B; a word or { type = word, ... }"}}});
+  tables.push_back({"[contact] type = sliding", "no shear stress", {}});
+  tables.push_back({"[contact] type = adherence", "solids are bonded", {}});
+  tables.push_back({"[contact] type = friction",
+                    "solids are bonded, or slip under Coulomb's shear stress; its heat stays half on either side",
+                    {{.key = "coefficient",
+                      .unit = "-",
+                      .range = {0, infinity, true, false},
+                      .required = true,
+                      .meaning = "largest shear stress over the pressure -sigma_nn of the contact"}}});
 }
 
 void add_regions(std::vector<KeyTable>& tables) {
@@ -289,12 +306,27 @@ void add_boundaries_and_output(std::vector<KeyTable>& tables) {
        "",
        {{.key = "GROUP",
          .kind = KeyKind::word_or_table,
-         .words = {"wall", "symmetry", "axis", "transmissive", "inflow", "periodic"},
+         .words = {"wall", "no_slip", "symmetry", "axis", "transmissive", "outlet", "inflow", "periodic"},
          .meaning = "of a physical group, or of \"*\", every group not named; a word or { type = word, ... }"}}});
-  tables.push_back({"[boundary] type = wall", "slip wall", {}});
+  const KeyInfo wall_velocity{.key = "velocity",
+                              .kind = KeyKind::vector_field,
+                              .unit = "m/s",
+                              .fallback = "at rest",
+                              .meaning = "of the wall; the mesh stays, and what a wall that moves displaces enters"};
+  tables.push_back({"[boundary] type = wall", "frictionless: of a velocity the normal part counts", {wall_velocity}});
+  tables.push_back({"[boundary] type = no_slip",
+                    "solids are bonded to it; before fluids, which have no viscosity, a frictionless wall",
+                    {wall_velocity}});
   tables.push_back({"[boundary] type = symmetry", "mirror", {}});
   tables.push_back({"[boundary] type = axis", "y = 0 of an axisymmetric scene, and nothing else", {}});
   tables.push_back({"[boundary] type = transmissive", "zero gradient", {}});
+  tables.push_back({"[boundary] type = outlet",
+                    "an opening; of a solid the normal stress is given and shear passes",
+                    {{.key = "pressure",
+                      .unit = "Pa",
+                      .range = any_number,
+                      .required = true,
+                      .meaning = "outside; where the flow leaves supersonic, it does not count"}}});
   tables.push_back({"[boundary] type = inflow", "besides, the keys of a filling", {}});
   tables.push_back({"[boundary] type = periodic",
                     "",

@@ -31,6 +31,16 @@ std::optional<Filling> read_filling(CaseTable& table, CaseReading& reading);
 
 /// Adds the keys of the list to those at hand.
 std::vector<KeyInfo> together(std::vector<KeyInfo> keys, const KeyTable& more);
+/// And those that go with a word, in the tables "title = WORD": a shape's, a boundary type's; of an unknown word any of
+/// its alternatives', since which were meant is not known.
+std::vector<KeyInfo> keys_with(std::vector<KeyInfo> keys, std::string_view title, const std::string* word,
+                               const std::vector<std::string>& words);
+/// The text at a key of a table that has not been checked; null if there is none.
+const std::string* text_at(const TomlTable& table, std::string_view key);
+/// What a word_or_table holds as a table: a word alone is the table that has it as type.
+TomlTable table_of(const TomlEntry& word_or_table);
+/// The key "type" of such a table.
+KeyInfo type_key(const KeyInfo& word_or_table);
 
 /// Mistakes of a setup in this geometry, see check_for_geometry.
 std::vector<std::string> mistakes_in_geometry(const Setup& setup, Geometry geometry);

@@ -134,12 +134,50 @@ std::vector<std::string> contact_keys(const std::vector<PhaseSetup>& phases) {
   return keys;
 }
 
+Contact read_contact(const KeyInfo& info, const TomlEntry& entry, CaseReading& reading) {
+  if (!check_value(info, entry.key, entry.value, reading.mistakes)) return {};
+  const TomlTable given = table_of(entry);
+  const auto keys = keys_with({type_key(info)}, "[contact] type", text_at(given, "type"), info.words);
+  const CaseTable table(given, entry.where, keys, fmt::format("contact \"{}\"", entry.key), reading.mistakes);
+  const std::string type = table.text("type").value_or("sliding");
+  if (type == "adherence") return Contact::adherence;
+  if (type == "friction") return {Contact::friction, table.number("coefficient").value_or(0)};
+  return Contact::sliding;
+}
+
 }  // namespace
 
 std::vector<KeyInfo> together(std::vector<KeyInfo> keys, const KeyTable& more) {
   for (const KeyInfo& key : more.keys)
     if (std::ranges::find(keys, key.key, &KeyInfo::key) == keys.end()) keys.push_back(key);
   return keys;
+}
+
+const std::string* text_at(const TomlTable& table, std::string_view key) {
+  const TomlEntry* entry = find_entry(table, key);
+  return entry ? std::get_if<std::string>(&entry->value.data) : nullptr;
+}
+
+std::vector<KeyInfo> keys_with(std::vector<KeyInfo> keys, std::string_view title, const std::string* word,
+                               const std::vector<std::string>& words) {
+  if (word && std::ranges::find(words, *word) != words.end())
+    return together(std::move(keys), keys_of(fmt::format("{} = {}", title, *word)));
+  for (const std::string& any : words) {
+    KeyTable table = keys_of(fmt::format("{} = {}", title, any));
+    for (KeyInfo& key : table.keys) key.required = false;
+    keys = together(std::move(keys), table);
+  }
+  return keys;
+}
+
+TomlTable table_of(const TomlEntry& word_or_table) {
+  const auto* keys = std::get_if<TomlTable>(&word_or_table.value.data);
+  return keys ? *keys : TomlTable{{"type", word_or_table.where, word_or_table.value}};
+}
+
+KeyInfo type_key(const KeyInfo& word_or_table) {
+  return {
+      .key = "type", .kind = KeyKind::word, .words = word_or_table.words, .required = true, .meaning = "what it is"};
 }
 
 std::optional<int> CaseReading::phase(const std::string& name, const Place& where) {
@@ -196,8 +234,7 @@ void read_contacts(const CaseTable& top, CaseReading& reading) {
   Setup& setup = reading.setup;
   const KeyInfo& info = keys_of("[contact]").keys.front();
   for (const TomlEntry& entry : std::get<TomlTable>(contacts->value.data)) {
-    const bool right = check_value(info, entry.key, entry.value, reading.mistakes);
-    const Contact contact = right && text_of(entry.value) == "adherence" ? Contact::adherence : Contact::sliding;
+    const Contact contact = read_contact(info, entry, reading);
     const auto pairs = pairs_of(entry.key, setup.phases);
     if (entry.key == info.key)
       setup.default_contact = contact;
@@ -211,6 +248,10 @@ void read_contacts(const CaseTable& top, CaseReading& reading) {
     else if (setup.contacts.contains(pairs[0]) && !entry.where.from_command_line())
       reading.mistakes.add(
           entry.where, fmt::format("contact \"{}\" is given twice; allowed: each pair once, either order", entry.key));
+    else if (const auto [l, m] = pairs[0];
+             contact.kind == Contact::friction && !(setup.phases[l].is_solid() && setup.phases[m].is_solid()))
+      reading.mistakes.add(entry.where,
+                           fmt::format("friction of \"{}\", of which one is a fluid; allowed: sliding", entry.key));
     else
       setup.contacts[pairs[0]] = contact;
   }

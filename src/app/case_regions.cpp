@@ -9,25 +9,6 @@
 namespace cobasis {
 namespace {
 
-const std::string* text_at(const TomlTable& table, std::string_view key) {
-  const TomlEntry* entry = find_entry(table, key);
-  return entry ? std::get_if<std::string>(&entry->value.data) : nullptr;
-}
-
-/// The keys that go with a word: a shape's, a boundary type's; of an unknown word any of its alternatives', since which
-/// were meant is not known.
-std::vector<KeyInfo> keys_with(std::vector<KeyInfo> keys, std::string_view title, const std::string* word,
-                               const std::vector<std::string>& words) {
-  if (word && std::ranges::find(words, *word) != words.end())
-    return together(std::move(keys), keys_of(fmt::format("{} = {}", title, *word)));
-  for (const std::string& any : words) {
-    KeyTable table = keys_of(fmt::format("{} = {}", title, any));
-    for (KeyInfo& key : table.keys) key.required = false;
-    keys = together(std::move(keys), table);
-  }
-  return keys;
-}
-
 bool is_zero(const Point& x) { return x.x == 0 && x.y == 0 && x.z == 0; }
 
 std::optional<Shape> read_shape(const CaseTable& table, Mistakes& mistakes) {
@@ -61,27 +42,42 @@ std::optional<Shape> read_shape(const CaseTable& table, Mistakes& mistakes) {
   return Everywhere{};
 }
 
+std::optional<Boundary> read_outlet(const CaseTable& table, CaseReading& reading) {
+  const auto pressure = table.number("pressure");
+  if (!pressure) return std::nullopt;
+  for (const PhaseSetup& phase : reading.setup.phases) {
+    if (phase.is_void()) continue;
+    const double lowest = std::visit([](const auto& eos) { return eos.lowest_pressure(); }, phase.eos);
+    if (!(*pressure > lowest))
+      reading.mistakes.add(table.where("pressure"),
+                           fmt::format("pressure = {} outside phase \"{}\"; allowed: {} < pressure [Pa]", *pressure,
+                                       phase.name, lowest));
+  }
+  return Outlet{*pressure};
+}
+
 std::optional<Boundary> read_boundary(const TomlEntry& entry, CaseReading& reading) {
   const KeyInfo& info = keys_of("[boundary]").keys.front();
   if (!check_value(info, entry.key, entry.value, reading.mistakes)) return std::nullopt;
-  const std::string title = "[boundary] type";
-  const KeyTable type_key{
-      title,
-      {},
-      {{.key = "type", .kind = KeyKind::word, .words = info.words, .required = true, .meaning = "what it is"}}};
-  // a word alone is the table that has it as type
-  const auto* keys = std::get_if<TomlTable>(&entry.value.data);
-  const TomlTable word{{"type", entry.where, entry.value}};
-  const TomlTable& given = keys ? *keys : word;
+  const TomlTable given = table_of(entry);
   const std::string* type = text_at(given, "type");
-  std::vector<KeyInfo> allowed = keys_with(type_key.keys, title, type, info.words);
+  std::vector<KeyInfo> allowed = keys_with({type_key(info)}, "[boundary] type", type, info.words);
   const bool may_fill = !type || std::ranges::find(info.words, *type) == info.words.end() || *type == "inflow";
   if (may_fill) allowed = together(std::move(allowed), keys_of("filling"));
   CaseTable table(given, entry.where, allowed, fmt::format("boundary \"{}\"", entry.key), reading.mistakes);
 
   const auto known = table.text("type");
   if (!known) return std::nullopt;
-  if (*known == "wall") return Wall{};
+  if (*known == "wall") return Wall{table.vector_field("velocity")};
+  if (*known == "no_slip") {
+    if (!reading.setup.phases.empty() && std::ranges::none_of(reading.setup.phases, &PhaseSetup::is_solid))
+      reading.mistakes.add(entry.where,
+                           fmt::format("boundary \"{}\" = \"no_slip\" in a scene of fluids, which have no viscosity; "
+                                       "allowed: wall, or a phase with elastic",
+                                       entry.key));
+    return NoSlip{table.vector_field("velocity").value_or(std::array<Expression, 3>{})};
+  }
+  if (*known == "outlet") return read_outlet(table, reading);
   if (*known == "symmetry") return Symmetry{};
   if (*known == "axis") return AxisOfSymmetry{};
   if (*known == "transmissive") return Transmissive{};

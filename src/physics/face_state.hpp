@@ -123,6 +123,31 @@ SolidFace<G, Real> mirrored(SolidFace<G, Real> s) {
   return s;
 }
 
+/// The state behind a wall that moves with the velocity `wall`, given in the frame of the face, and to which a solid is
+/// bonded where `bonded` is 1. Both sides together have the wall's velocity, of a frictionless wall its normal part,
+/// and no shear stress there. What is displaced by the wall enters with the state that it has before it. Where `open`
+/// is true, there is no wall and the state goes on.
+template <class G, class Real>
+FluidFace<G, Real> behind_wall(FluidFace<G, Real> s, const Vector<G, Real>& wall, const Real&, const Mask<Real>& open) {
+  const Real u = select(open, s.u.x, 2.0 * wall.x - s.u.x);
+  s.E = s.E + 0.5 * (u * u - s.u.x * s.u.x);
+  s.u.x = u;
+  return s;
+}
+template <class G, class Real>
+SolidFace<G, Real> behind_wall(SolidFace<G, Real> s, const Vector<G, Real>& wall, const Real& bonded,
+                               const Mask<Real>& open) {
+  Vector<G, Real> u;
+  u.x = select(open, s.u.x, 2.0 * wall.x - s.u.x);
+  u.y = s.u.y + 2.0 * (bonded * (wall.y - s.u.y));
+  if constexpr (G::dimension == 3) u.z = s.u.z + 2.0 * (bonded * (wall.z - s.u.z));
+  s.E = s.E + 0.5 * (dot(u, u) - dot(s.u, s.u));
+  s.u = u;
+  const Real shear = select(open, Real(1.0), 2.0 * bonded - 1.0);
+  s.tau = {Zero{}, shear * s.tau.y, shear * s.tau.z};
+  return s;
+}
+
 /// The larger of two speeds; not a number if one of them is not.
 template <class Real>
 Real faster(const Real& a, const Real& b) {

@@ -65,4 +65,26 @@ void check_axis(const Setup& setup, const Mesh& mesh, const std::vector<Boundary
   if (!mistakes.empty()) throw InputError(mistakes.substr(0, mistakes.size() - 1));
 }
 
+void prescribe(const Mesh& mesh, const std::vector<Boundary>& boundaries, Faces& faces) {
+  if (std::none_of(boundaries.begin(), boundaries.end(), is_prescribed)) return;
+  Prescribed& given = faces.prescribed;
+  for (auto* values : {&given.u[0], &given.u[1], &given.u[2], &given.bonded, &given.outlet, &given.pressure})
+    values->assign(faces.area.size(), 0);
+  for (std::size_t i = 0; i < boundaries.size(); ++i) {
+    const auto* wall = std::get_if<Wall>(&boundaries[i]);
+    const auto* no_slip = std::get_if<NoSlip>(&boundaries[i]);
+    const auto* outlet = std::get_if<Outlet>(&boundaries[i]);
+    const std::array<Expression, 3>* const velocity = no_slip                  ? &no_slip->velocity
+                                                      : wall && wall->velocity ? &*wall->velocity
+                                                                               : nullptr;
+    for (std::int32_t face = mesh.boundary_groups[i].first; face < mesh.boundary_groups[i].last; ++face) {
+      for (int d = 0; velocity && d < 3; ++d) given.u[d][face] = (*velocity)[d](mesh.face_centroid[face]);
+      given.bonded[face] = no_slip != nullptr;
+      if (!outlet) continue;
+      given.outlet[face] = 1;
+      given.pressure[face] = outlet->pressure;
+    }
+  }
+}
+
 }  // namespace cobasis

@@ -5,6 +5,7 @@
 
 #include "mesh/mesh.hpp"
 #include "mesh/mpi.hpp"
+#include "solver/faces.hpp"
 #include "solver/setup.hpp"
 
 namespace cobasis {
@@ -19,8 +20,19 @@ void check_axis(const Setup& setup, const Mesh& mesh, const std::vector<Boundary
 
 /// Whether the state beyond is the mirror image of the cell's own.
 inline bool is_mirror_image(const Boundary& boundary) {
-  return std::holds_alternative<Wall>(boundary) || std::holds_alternative<Symmetry>(boundary) ||
+  const auto* wall = std::get_if<Wall>(&boundary);
+  return (wall && !wall->velocity) || std::holds_alternative<Symmetry>(boundary) ||
          std::holds_alternative<AxisOfSymmetry>(boundary);
 }
+
+/// Whether the faces read Faces::prescribed.
+inline bool is_prescribed(const Boundary& boundary) {
+  const auto* wall = std::get_if<Wall>(&boundary);
+  return (wall && wall->velocity) || std::holds_alternative<NoSlip>(boundary) ||
+         std::holds_alternative<Outlet>(boundary);
+}
+
+/// Faces::prescribed, if there is a boundary that reads it.
+void prescribe(const Mesh& mesh, const std::vector<Boundary>& boundaries, Faces& faces);
 
 }  // namespace cobasis

@@ -8,7 +8,7 @@
 
 namespace cobasis {
 
-/// Owned cells whose state left the admissible set: rho <= 0, p <= the EOS's lowest pressure, det e <= 0, or not a
+/// Owned cells whose state left the admissible set: a density or pressure beyond the EOS's bounds, det e <= 0, or not a
 /// number.
 using BadCells = std::vector<std::int32_t>;
 
@@ -39,7 +39,7 @@ COBASIS_KERNEL void primitives(Phase& phase, const EquationOfState& eos, const C
       keep(L::metric_scale, scale);
     }
     const Real p = eos.pressure(rho, e_h);
-    good = good && p > Real(eos.lowest_pressure());
+    good = good && p > Real(eos.lowest_pressure()) && rho < Real(eos.densest());
     if (any(!good)) [[unlikely]] {
       for (int j = 0; j < lanes<Real>; ++j)
         if (!lane(good, j) && i + j < n) bad.push_back(at[j]);

@@ -12,6 +12,7 @@ struct ContactList {
   CompactList<double> area;                        ///< of the interface [m^2], in a plane [m]
   CompactList<double> normal[3];                   ///< unit normal from l to m
   CompactList<double> speed;                       ///< u* of the contact along it [m/s]
+  double friction = 0;                             ///< Coulomb's coefficient, of solids that rub
 
   explicit ContactList(std::size_t capacity = 0)
       : cell(capacity), cell_l(capacity), cell_m(capacity), area(capacity), speed(capacity) {
@@ -108,8 +109,8 @@ COBASIS_KERNEL void contact_in_cells(Phase& phase_l, Phase& phase_m, ContactList
     store(star.u_star, &list.speed[i]);
     if constexpr (!SpeedOnly) {
       const Real area = load<Real>(&list.area[i]);
-      if constexpr (T == Tangent::bonded) {
-        const ShearStar<G, Real> shear = bonded_shear(l, m);
+      if constexpr (T != Tangent::free) {
+        const auto [shear, power_l, power_m] = tangential_contact<T>(l, m, star.P_star, list.friction);
         const Vector<G, Real> force = area * out_of_frame(frame, shear.tau);
         const auto pull = [&]<Kind K>(Phase& phase, const Vector<G, Real>& by, const Real& work) {
           using L = Layout<G, K>;
@@ -118,8 +119,8 @@ COBASIS_KERNEL void contact_in_cells(Phase& phase_l, Phase& phase_m, ContactList
           if constexpr (G::dimension == 3) add_in_cell<G, K>(phase, cell, L::inner_momentum + 2, by.z);
           add_in_cell<G, K>(phase, cell, L::inner_energy, work);
         };
-        pull.template operator()<Kl>(phase_l, force, area * dot(shear.tau, shear.w_l));
-        pull.template operator()<Km>(phase_m, (-1.0) * force, -(area * dot(shear.tau, shear.w_r)));
+        pull.template operator()<Kl>(phase_l, force, area * power_l);
+        pull.template operator()<Km>(phase_m, (-1.0) * force, -(area * power_m));
         act_in_cell<G, Kl>(phase_l, cell, frame, area, star, l, shear.w_l);
         act_in_cell<G, Km>(phase_m, cell, frame, -area, star, m, shear.w_r);
       } else {

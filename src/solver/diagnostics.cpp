@@ -131,6 +131,10 @@ std::vector<Column> Solver::totals() const {
       for (int i = 0; i < D; ++i) u2 += phase.primitive[1 + i][c] * phase.primitive[1 + i][c];
       return has_mass(phase, c) ? 0.5 * u2 * phase.conserved[0][c] * fields_.volume[c] : 0;
     });
+    if (dot(setup_.gravity, setup_.gravity) > 0)
+      total("potential." + phase.name, "J", [&](std::int32_t c) {
+        return -dot(setup_.gravity, mesh_.centroid[c]) * phase.conserved[0][c] * fields_.volume[c];
+      });
     if (phase.kind == Kind::solid)
       total("elastic." + phase.name, "J", [&](std::int32_t c) {
         return has_state(phase, D, c)

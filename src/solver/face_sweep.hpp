@@ -17,6 +17,7 @@ struct PairList {
   CompactList<std::int32_t> face;
   CompactList<double> share;
   std::int32_t side = 0;
+  double friction = 0;  ///< Coulomb's coefficient, of solids that rub
 };
 
 /// Where a sweep finds the state of one side: in the cells there (first order) …
@@ -149,7 +150,7 @@ SlotPack<Real> slot_pack(RawStorage& buffer, int n, const Indices<Real>& slots) 
 
 /// Mixed slots have their own numbering in the buffers that pure faces do not need.
 inline std::int32_t first_mixed_slot(const Faces& faces) {
-  return pack_width + (faces.n + 4 * pack_width) / pack_width * pack_width;
+  return pack_width + (faces.n + 5 * pack_width) / pack_width * pack_width;
 }
 inline std::int32_t gain_slot(std::int32_t slot, std::int32_t first_mixed) {
   return slot < first_mixed ? 0 : slot - first_mixed + pack_width;
@@ -166,7 +167,24 @@ void stand_in(FaceSide<Real>& absent, const FaceSide<Real>& present, int j) {
   absent.consecutive = false;
 }
 
-enum class Beyond { cell, mirror };  ///< what lies right of a face: another cell, or the mirror image of the left one
+/// What lies right of a face: another cell, the mirror image of the left one, or what the case prescribes.
+enum class Beyond { cell, mirror, prescribed };
+
+/// The left state goes on into an opening to a pressure: star state along its own wave; where it is faster than that,
+/// the left state itself.
+template <class Real, class FaceL>
+LongitudinalStar<Real> select_outlet(const Mask<Real>& outlet, const FaceL& l, const Real& pressure,
+                                     const LongitudinalStar<Real>& wall) {
+  const LongitudinalStar<Real> open = free_surface<Real>(l, pressure);
+  return {.u_star = select(outlet, open.u_star, wall.u_star),
+          .P_star = select(outlet, open.P_star, wall.P_star),
+          .from_left = (outlet && open.from_left) || (!outlet && wall.from_left),
+          .u_f = select(outlet, open.u_f, wall.u_f),
+          .P_f = select(outlet, open.P_f, wall.P_f),
+          .r = select(outlet, open.r, wall.r),
+          .mass_speed = select(outlet, open.mass_speed, wall.mass_speed),
+          .fastest = select(outlet, open.fastest, wall.fastest)};
+}
 
 /// Riemann problem of a phase with itself. Pure: the whole face. Mixed: its share S_kk (possibly 0); the traction and
 /// speeds of both sides are kept for the pairs that the face's phases form.
@@ -189,15 +207,26 @@ COBASIS_KERNEL void sweep_same(Faces& faces, Phase& phase, Segment segment) {
     }
     const Frame<G, Real> frame = load_frame<G, Real>(faces, face);
     const auto e_l = load_cobasis_of<G, K>(side_l);
-    const auto e_r = load_cobasis_of<G, K>(B == Beyond::mirror ? side_l : side_r);
+    const auto e_r = load_cobasis_of<G, K>(B == Beyond::cell ? side_r : side_l);
     Face<G, K, Real> l = load_face_state<G>(side_l, e_l, frame), r;
-    if constexpr (B == Beyond::mirror)
+    [[maybe_unused]] Mask<Real> outlet;
+    if constexpr (B == Beyond::mirror) {
       r = mirrored(l);
-    else
+    } else if constexpr (B == Beyond::prescribed) {
+      const Prescribed& given = faces.prescribed;
+      Vector<G, Real> wall;
+      wall.x = face(given.u[0]), wall.y = face(given.u[1]);
+      if constexpr (G::dimension == 3) wall.z = face(given.u[2]);
+      outlet = face(given.outlet) > Real(0.0);
+      const auto in_frame = into_frame(frame, wall);
+      r = behind_wall(l, Vector<G, Real>{in_frame.x, in_frame.y, in_frame.z}, face(given.bonded), outlet);
+    } else {
       r = load_face_state<G>(side_r, e_r, frame);
+    }
     const Real signal = faster(signal_speed(l), signal_speed(r));
     if (phase.low_mach != 0) reduce_slow_jump(l, r, Real(phase.low_mach));
-    const LongitudinalStar<Real> star = longitudinal<Real>(l, r);
+    LongitudinalStar<Real> star = longitudinal<Real>(l, r);
+    if constexpr (B == Beyond::prescribed) star = select_outlet(outlet, l, face(faces.prescribed.pressure), star);
     raise_fastest(faces, face, faster(signal, star.fastest));
     Flux<G, Real> flux = eulerian_flux<G>(star, l, r);
     Real weight = face(faces.area);
@@ -333,7 +362,28 @@ auto cell_velocity(const Phase& phase, const Indices<Real>& cell, const Frame<G,
     return into_frame(frame, load_velocity<G, K>(CellSide<Real>{phase, cell}));
 }
 
-enum class Tangent { free, bonded };  ///< sliding phases, a fluid or a void are free; solids that adhere are bonded
+/// Sliding phases, a fluid or a void are free; solids that adhere are bonded; solids with friction rub.
+enum class Tangent { free, bonded, rubbing };
+
+/// What acts along a contact of solids: stress and velocities, and the power that goes from m to l per unit area. Heat
+/// of friction stays in equal parts on both sides: with the mean velocity of the surfaces, none is lost.
+template <class G, class Real>
+struct TangentialContact {
+  ShearStar<G, Real> shear;
+  Real power_l, power_m;
+};
+template <Tangent T, class G, class Real>
+TangentialContact<G, Real> tangential_contact(const SolidFace<G, Real>& l, const SolidFace<G, Real>& m,
+                                              [[maybe_unused]] const Real& P_star, [[maybe_unused]] double friction) {
+  if constexpr (T == Tangent::bonded) {
+    const ShearStar<G, Real> shear = bonded_shear(l, m);
+    return {shear, dot(shear.tau, shear.w_l), dot(shear.tau, shear.w_r)};
+  } else {
+    const ShearStar<G, Real> shear = rubbing_shear(l, m, friction * larger(P_star, Real(0.0)));
+    const Real power = 0.5 * dot(shear.tau, shear.w_l + shear.w_r);
+    return {shear, power, power};
+  }
+}
 
 /// Contact of two different phases, l left and m right, along the face normal.
 template <class G, Kind Kl, Kind Km, Tangent T, class Real, int Order>
@@ -367,11 +417,12 @@ COBASIS_KERNEL void sweep_pair(Faces& faces, Phase& phase_l, Phase& phase_m, con
                      -(weight_m * contact.convected_energy), -(weight_m * star.u_star));
 
     [[maybe_unused]] ShearStar<G, Real> shear;
-    if constexpr (T == Tangent::bonded) {
-      shear = bonded_shear(l, m);
+    if constexpr (T != Tangent::free) {
+      const auto tangential = tangential_contact<T>(l, m, star.P_star, list.friction);
+      shear = tangential.shear;
       const Vector<G, Real> force = weight * out_of_frame(frame, shear.tau);
-      slots_l.add_gain(0, zero, force, weight * dot(shear.tau, shear.w_l), zero);
-      slots_m.add_gain(1, zero, (-1.0) * force, -(weight * dot(shear.tau, shear.w_r)), zero);
+      slots_l.add_gain(0, zero, force, weight * tangential.power_l, zero);
+      slots_m.add_gain(1, zero, (-1.0) * force, -(weight * tangential.power_m), zero);
     } else {
       if constexpr (Kl == Kind::solid) shear.w_l = free_surface_velocity(l, Real(1.0));
       if constexpr (Km == Kind::solid) shear.w_r = free_surface_velocity(m, Real(-1.0));

@@ -8,6 +8,14 @@
 
 namespace cobasis {
 
+/// What a case prescribes beyond boundary faces that are neither open nor mirrors, per face; empty if there are none.
+struct Prescribed {
+  AlignedVector<double> u[3];      ///< velocity of a wall [m/s]
+  AlignedVector<double> bonded;    ///< 1: solids are bonded to it
+  AlignedVector<double> outlet;    ///< 1: no wall, but an opening to …
+  AlignedVector<double> pressure;  ///< … this pressure [Pa]
+};
+
 struct Faces {
   std::int32_t n = 0;  ///< the mesh's faces, in its order; entry n is the face of nobody
   AlignedVector<std::int32_t> left, right;
@@ -15,6 +23,8 @@ struct Faces {
   AlignedVector<double> nx, ny, nz;  ///< unit normal from left to right
   AlignedVector<double> tx, ty, tz;  ///< first tangent
   AlignedVector<double> fastest;     ///< lambda_f of the last sweep [m/s]
+
+  Prescribed prescribed;
 
   std::int32_t max_cell_faces = 0, cell_stride = 0;
   AlignedVector<std::int32_t> cell_faces;  ///< [j * cell_stride + cell]: 2 face + side; absent: 2 n

@@ -16,9 +16,9 @@ void close_segment(Segment& segment, CompactList<T>& list) {
 }  // namespace
 
 Interfaces::Interfaces(const Faces& faces, const Fields& fields, std::vector<FaceRange> inside,
-                       std::vector<FaceRange> mirror, std::vector<FaceRange> halo)
+                       std::vector<FaceRange> mirror, std::vector<FaceRange> halo, std::vector<FaceRange> prescribed)
     : n_phases_(fields.n_phases()),
-      ranges_{std::move(inside), std::move(mirror), std::move(halo)},
+      ranges_{std::move(inside), std::move(mirror), std::move(halo), std::move(prescribed)},
       pure_(n_phases_),
       mixed_(n_phases_),
       pair_segments_(n_phases_ * n_phases_),

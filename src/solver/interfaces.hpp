@@ -8,9 +8,10 @@
 
 namespace cobasis {
 
-/// Faces that can be swept at one moment. Open boundary faces go with the inner ones; mirrors have no right cell.
-enum class Part { inside, mirror, halo };
-inline constexpr int n_parts = 3;
+/// Faces that can be swept at one moment. Open boundary faces go with the inner ones; mirrors have no right cell, and
+/// that of what the case prescribes is the left one.
+enum class Part { inside, mirror, halo, prescribed };
+inline constexpr int n_parts = 4;
 
 struct FaceRange {
   std::int32_t first, last;
@@ -21,7 +22,7 @@ class Interfaces {
   static constexpr int most_phases = 31;  ///< one bit each
 
   Interfaces(const Faces& faces, const Fields& fields, std::vector<FaceRange> inside, std::vector<FaceRange> mirror,
-             std::vector<FaceRange> halo);
+             std::vector<FaceRange> halo, std::vector<FaceRange> prescribed = {});
 
   /// Empties all lists before a step.
   void clear(Fields& fields);
@@ -34,6 +35,7 @@ class Interfaces {
   Segment pure(int k, Part part) const { return pure_[k][static_cast<int>(part)]; }
   Segment mixed(int k, Part part) const { return mixed_[k][static_cast<int>(part)]; }
   const PairList& pair(int l, int m) const { return pairs_[l * n_phases_ + m]; }
+  void set_friction(int l, int m, double coefficient) { pairs_[l * n_phases_ + m].friction = coefficient; }
   Segment pair_segment(int l, int m, Part part) const {
     return pair_segments_[l * n_phases_ + m][static_cast<int>(part)];
   }

@@ -5,7 +5,6 @@
 #include "solver/cell_update.hpp"
 #include "solver/contact_cells.hpp"
 #include "solver/reconstruct.hpp"
-#include "solver/setup.hpp"
 
 namespace cobasis {
 
@@ -18,8 +17,10 @@ struct PhaseKernels {
   void (*copy_to_faces)(Phase&, const Faces&, const CellList&, std::int32_t n) = nullptr;
   void (*sweep_pure)(Faces&, Phase&, Segment) = nullptr;
   void (*sweep_pure_mirror)(Faces&, Phase&, Segment) = nullptr;
+  void (*sweep_pure_prescribed)(Faces&, Phase&, Segment) = nullptr;
   void (*sweep_mixed)(Faces&, Phase&, Segment) = nullptr;
   void (*sweep_mixed_mirror)(Faces&, Phase&, Segment) = nullptr;
+  void (*sweep_mixed_prescribed)(Faces&, Phase&, Segment) = nullptr;
   void (*sweep_free_surface)(Faces&, Phase&, double p0, const PairList&, Segment) = nullptr;
   void (*update_pure)(const Faces&, const AlignedVector<double>& volume, const Rings*, Phase&, const CellList&,
                       std::int32_t n, double dt, double centring) = nullptr;

@@ -8,11 +8,9 @@ namespace cobasis {
 template <class G, Kind K, class Real, Around A, bool Averaged>
 std::int64_t reconstruct_phase(Phase& phase, const Faces& faces, const Stencil& stencil, const CellList& cells,
                                std::int32_t n, const ReconstructionOptions& options) {
-  return std::visit(
-      [&]<class EquationOfState>(const EquationOfState& eos) {
-        return reconstruct<G, K, Real, EquationOfState, A, Averaged>(phase, eos, faces, stencil, cells, n, options);
-      },
-      phase.eos);
+  return visit_compiled(phase.eos, [&]<class EquationOfState>(const EquationOfState& eos) {
+    return reconstruct<G, K, Real, EquationOfState, A, Averaged>(phase, eos, faces, stencil, cells, n, options);
+  });
 }
 
 template <class G, Kind K, class Real>
@@ -32,28 +30,30 @@ void add_second_order(PhaseKernels& kernels) {
 template <class G, Kind K, class Real, int Order>
 PhaseKernels phase_kernels_of() {
   using L = Layout<G, K>;
-  PhaseKernels kernels{.primitives =
-                           [](Phase& phase, const CellList& cells, std::int32_t n, BadCells& bad) {
-                             std::visit([&](const auto& eos) { primitives<G, K, Real>(phase, eos, cells, n, bad); },
-                                        phase.eos);
-                           },
-                       .sweep_pure = &sweep_same<G, K, Real, false, Beyond::cell, Order>,
-                       .sweep_pure_mirror = &sweep_same<G, K, Real, false, Beyond::mirror, Order>,
-                       .sweep_mixed = &sweep_same<G, K, Real, true, Beyond::cell, Order>,
-                       .sweep_mixed_mirror = &sweep_same<G, K, Real, true, Beyond::mirror, Order>,
-                       .sweep_free_surface = &sweep_free_surface<G, K, Real, Order>,
-                       .update_pure = &update<G, K, Real, false>,
-                       .update_mixed = &update<G, K, Real, true>,
-                       .free_surface_in_cells = &free_surface_in_cells<G, K, Real, false>,
-                       .free_surface_speed = &free_surface_in_cells<G, K, Real, true>,
-                       .n_conserved = L::n_conserved,
-                       .n_primitive = L::n_primitive,
-                       .n_flux = L::n_flux,
-                       .n_gain = L::n_gain,
-                       .n_side = L::n_side,
-                       .n_face_state = L::n_face_state,
-                       .n_slopes = Primitives<G, K>::size * G::dimension,
-                       .n_inner = L::n_inner};
+  PhaseKernels kernels{
+      .primitives =
+          [](Phase& phase, const CellList& cells, std::int32_t n, BadCells& bad) {
+            visit_compiled(phase.eos, [&](const auto& eos) { primitives<G, K, Real>(phase, eos, cells, n, bad); });
+          },
+      .sweep_pure = &sweep_same<G, K, Real, false, Beyond::cell, Order>,
+      .sweep_pure_mirror = &sweep_same<G, K, Real, false, Beyond::mirror, Order>,
+      .sweep_pure_prescribed = &sweep_same<G, K, Real, false, Beyond::prescribed, Order>,
+      .sweep_mixed = &sweep_same<G, K, Real, true, Beyond::cell, Order>,
+      .sweep_mixed_mirror = &sweep_same<G, K, Real, true, Beyond::mirror, Order>,
+      .sweep_mixed_prescribed = &sweep_same<G, K, Real, true, Beyond::prescribed, Order>,
+      .sweep_free_surface = &sweep_free_surface<G, K, Real, Order>,
+      .update_pure = &update<G, K, Real, false>,
+      .update_mixed = &update<G, K, Real, true>,
+      .free_surface_in_cells = &free_surface_in_cells<G, K, Real, false>,
+      .free_surface_speed = &free_surface_in_cells<G, K, Real, true>,
+      .n_conserved = L::n_conserved,
+      .n_primitive = L::n_primitive,
+      .n_flux = L::n_flux,
+      .n_gain = L::n_gain,
+      .n_side = L::n_side,
+      .n_face_state = L::n_face_state,
+      .n_slopes = Primitives<G, K>::size * G::dimension,
+      .n_inner = L::n_inner};
   if constexpr (G::dimension == 2) kernels.hoop_of_cells = &hoop_of_cells<G, K, Real>;
   if constexpr (Order == 2) add_second_order<G, K, Real>(kernels);
   return kernels;
@@ -79,8 +79,9 @@ PairKernels pair_kernels(Kind l, Kind m, Tangent tangent, int order) {
   if (l == fluid && m == fluid) return pair_kernels_of<G, fluid, fluid, Tangent::free, Real>(order);
   if (l == fluid) return pair_kernels_of<G, fluid, solid, Tangent::free, Real>(order);
   if (m == fluid) return pair_kernels_of<G, solid, fluid, Tangent::free, Real>(order);
-  return tangent == Tangent::bonded ? pair_kernels_of<G, solid, solid, Tangent::bonded, Real>(order)
-                                    : pair_kernels_of<G, solid, solid, Tangent::free, Real>(order);
+  if (tangent == Tangent::bonded) return pair_kernels_of<G, solid, solid, Tangent::bonded, Real>(order);
+  if (tangent == Tangent::rubbing) return pair_kernels_of<G, solid, solid, Tangent::rubbing, Real>(order);
+  return pair_kernels_of<G, solid, solid, Tangent::free, Real>(order);
 }
 
 }  // namespace cobasis

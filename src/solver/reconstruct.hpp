@@ -314,7 +314,7 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
     Mask<Real> good = w[P::rho] == w[P::rho];
     for (int j = 0; j < faces.max_cell_faces; ++j) {
       const auto s = at_face(j);
-      good = good && s[P::rho] > Real(0.0) && s[P::p] > Real(eos.lowest_pressure());
+      good = good && s[P::rho] > Real(0.0) && s[P::rho] < Real(eos.densest()) && s[P::p] > Real(eos.lowest_pressure());
       if constexpr (K == Kind::solid) good = good && determinant(cobasis_of(s)) > Real(0.0);
     }
     if (any(!good)) [[unlikely]] {

@@ -82,8 +82,9 @@ Reconstruction::Reconstruction(const Mpi& mpi, const Mesh& mesh, const Faces& fa
   for (std::size_t i = 0; i < boundaries.size(); ++i) {
     const BoundaryGroup& group = mesh.boundary_groups[i];
     for (std::int32_t face = group.first; face < group.last; ++face) {
-      if (std::holds_alternative<Transmissive>(boundaries[i])) {
-        transmissive_.push_back(face);
+      const bool transmissive = std::holds_alternative<Transmissive>(boundaries[i]);
+      if (transmissive) transmissive_.push_back(face);
+      if (transmissive || is_prescribed(boundaries[i])) {
         if (const std::int32_t cell = mesh.left[face]; stencil_.averages_in(cell)) flat_[cell] = 1;
       }
       if (!std::holds_alternative<Inflow>(boundaries[i])) continue;

@@ -22,7 +22,15 @@ enum class Geometry { plane, axisymmetric, space };
 constexpr const char* name_of(Geometry geometry) {
   return geometry == Geometry::plane ? "plane" : geometry == Geometry::axisymmetric ? "axisymmetric" : "space";
 }
-enum class Contact { sliding, adherence };
+/// Between two solids; others slide.
+struct Contact {
+  enum Kind { sliding, adherence, friction };
+  Kind kind = sliding;
+  double coefficient = 0;  ///< Coulomb's, of friction
+
+  Contact(Kind k = sliding, double f = 0) : kind(k), coefficient(f) {}  // NOLINT: a kind without numbers is a contact
+  bool operator==(const Contact&) const = default;
+};
 
 struct PhaseSetup {
   std::string name;
@@ -78,17 +86,27 @@ struct RegionSetup {
   std::string where;  ///< file:line, for messages
 };
 
-struct Wall {};            ///< slip wall: mirrored normal velocity and cobasis
+/// Frictionless. At rest it mirrors normal velocity and cobasis; of its velocity [m/s] the normal part counts.
+struct Wall {
+  std::optional<std::array<Expression, 3>> velocity;
+};
+/// Solids are bonded to it; before fluids, which have no viscosity, it is a frictionless wall.
+struct NoSlip {
+  std::array<Expression, 3> velocity;  ///< [m/s]
+};
 struct Symmetry {};        ///< the same mirror
 struct AxisOfSymmetry {};  ///< y = 0 of an axisymmetric scene
 struct Transmissive {};    ///< zero gradient
+struct Outlet {
+  double pressure = 0;
+};  ///< an opening to this pressure [Pa]; zero gradient where the flow is supersonic
 struct Inflow {
   Filling filling;
 };
 struct Periodic {
   std::string with;
 };  ///< the partner group
-using Boundary = std::variant<Wall, Symmetry, AxisOfSymmetry, Transmissive, Inflow, Periodic>;
+using Boundary = std::variant<Wall, NoSlip, Symmetry, AxisOfSymmetry, Transmissive, Outlet, Inflow, Periodic>;
 
 struct BoundarySetup {
   std::string group;  ///< physical group, or "*": every group not named
@@ -157,10 +175,11 @@ struct Setup {
   double end_time = 0;            ///< [s]
   double cfl = 0.8;
   Scheme scheme;
-  double alpha_min = 0;  ///< 0: absent phases are absent; > 0: traces everywhere
+  Point gravity{0, 0, 0};  ///< [m/s^2]
+  double alpha_min = 0;    ///< 0: absent phases are absent; > 0: traces everywhere
   std::optional<std::int64_t> max_steps;
   std::vector<PhaseSetup> phases;
-  Contact default_contact = Contact::sliding;
+  Contact default_contact;
   std::map<std::pair<int, int>, Contact> contacts;  ///< by phase indices, smaller first
   std::vector<RegionSetup> regions;                 ///< painted in order
   std::vector<BoundarySetup> boundaries;

@@ -55,7 +55,10 @@ SharpInterface::SharpInterface(const Mpi& mpi, const Mesh& mesh, const Faces& fa
   speed_users_.resize(n * n);
   for (int l = 0; l < n; ++l)
     for (int m = 0; m < n; ++m)
-      if (l != m) contacts_[l * n + m] = ContactList(2 * mesh.n_cells());
+      if (l != m) {
+        contacts_[l * n + m] = ContactList(2 * mesh.n_cells());
+        contacts_[l * n + m].friction = setup.contact(l, m).coefficient;
+      }
 
   for (std::int32_t cell = 0; cell < mesh.n_owned; ++cell) hops_ = std::max(hops_, hops_of(mesh.cell_type[cell]));
   hops_ = static_cast<int>(mpi.max(hops_));

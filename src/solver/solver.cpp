@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "math/errors.hpp"
+#include "solver/gravity.hpp"
 #include "solver/splinter.hpp"
 #include "solver/stopwatch.hpp"
 
@@ -47,6 +48,13 @@ double Solver::advance(double until) {
 
 /// Changes the state, and troubled_ where that failed.
 void Solver::take_step(double until) {
+  const bool falls = dot(setup_.gravity, setup_.gravity) > 0;
+  double fallen = 0;  // [s]; the length of the step is not known yet, but that of the one before is
+  if (falls && stable_step_ > 0) {
+    fallen = 0.5 * step_to(until, stable_step_);
+    accelerate(fields_, fallen * setup_.gravity);
+    convert_present();
+  }
   send_halo();
   double dt;
   if (setup_.scheme.order == 1 && !sharp_) {
@@ -58,6 +66,7 @@ void Solver::take_step(double until) {
   if (dt == 0) return;
   if (sharp_) sharp_->act(faces_, fields_, touched_cells_.span());
   update_cells(dt);
+  if (falls) accelerate(fields_, (dt - fallen) * setup_.gravity);
   relax_dust();
   if (redistribution_) redistribution_->run(mesh_, faces_, fields_, touched_cells_.span());
   last_dt_ = dt;
@@ -91,6 +100,17 @@ void Solver::restore() {
   stable_step_ = saved_stable_step_;
   unphysical_.clear();
   troubled_ = false;
+  convert_present();
+  if (!fields_.multiphase()) return;
+  scratch_cells_.clear();
+  for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) scratch_cells_.push(cell);
+  scratch_cells_.fill(pack_width);
+  fields_.complete(scratch_cells_, mesh_.n_owned);
+}
+
+/// Primitive states of what is in owned cells and was admissible at the end of a step.
+void Solver::convert_present() {
+  const Timed timed(clock_.kernels);
   for (int k = 0; k < fields_.n_phases(); ++k) {
     Phase& phase = fields_.phases[k];
     if (phase.is_void) continue;
@@ -106,11 +126,6 @@ void Solver::restore() {
       if (std::find(followers_.begin(), followers_.end(), std::pair(cell, k)) == followers_.end())
         followers_.emplace_back(cell, k);
   }
-  if (!fields_.multiphase()) return;
-  scratch_cells_.clear();
-  for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) scratch_cells_.push(cell);
-  scratch_cells_.fill(pack_width);
-  fields_.complete(scratch_cells_, mesh_.n_owned);
 }
 
 /// The step at the case's CFL number, not beyond `until`; halved from the third attempt on.
@@ -124,6 +139,7 @@ double Solver::sweep_first_order() {
   begin_sweeps();
   sweep(Part::inside);
   sweep(Part::mirror);
+  sweep(Part::prescribed);
   clock_.inside_swept = seconds() - clock_.step_start;
   receive_halo();
   clock_.halo_received = seconds() - clock_.step_start;
@@ -158,6 +174,7 @@ double Solver::sweep_centred(double until) {
     begin_sweeps();
     sweep(Part::inside);
     sweep(Part::mirror);
+    sweep(Part::prescribed);
     clock_.inside_swept = seconds() - clock_.step_start;
     if (second) reconstruction_->receive(mesh_, fields_);
     clock_.halo_received = seconds() - clock_.step_start;
@@ -191,19 +208,25 @@ double Solver::stable_step() {
 }
 
 void Solver::sweep(Part part) {
+  if (part == Part::prescribed && faces_.prescribed.outlet.empty()) return;
   const Timed timed(clock_.kernels), timed_sweep(clock_.sweeps);
   if (fields_.multiphase()) {
     interfaces_->sort(faces_, fields_, part);
     interfaces_->find_contacts(faces_, fields_, part);
   }
   const int n = fields_.n_phases();
-  const bool mirror = part == Part::mirror;
   for (int k = 0; k < n; ++k) {
     Phase& phase = fields_.phases[k];
     if (phase.is_void) continue;
-    (mirror ? kernels_[k].sweep_pure_mirror : kernels_[k].sweep_pure)(faces_, phase, interfaces_->pure(k, part));
-    if (fields_.multiphase())
-      (mirror ? kernels_[k].sweep_mixed_mirror : kernels_[k].sweep_mixed)(faces_, phase, interfaces_->mixed(k, part));
+    const PhaseKernels& of = kernels_[k];
+    const auto pure = part == Part::mirror       ? of.sweep_pure_mirror
+                      : part == Part::prescribed ? of.sweep_pure_prescribed
+                                                 : of.sweep_pure;
+    const auto mixed = part == Part::mirror       ? of.sweep_mixed_mirror
+                       : part == Part::prescribed ? of.sweep_mixed_prescribed
+                                                  : of.sweep_mixed;
+    pure(faces_, phase, interfaces_->pure(k, part));
+    if (fields_.multiphase()) mixed(faces_, phase, interfaces_->mixed(k, part));
   }
   for (int l = 0; l < n; ++l) {
     for (int m = 0; m < n; ++m) {

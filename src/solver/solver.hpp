@@ -108,6 +108,7 @@ class Solver {
   void update_cells(double dt);
   void book_boundaries(double dt);
   void choose_present(CellList& cells, const Phase& phase);
+  void convert_present();
   void convert_owned(double dt);
   int find_void() const;
   void relax_dust();

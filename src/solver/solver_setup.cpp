@@ -86,7 +86,10 @@ void pick_kernels(const Setup& setup, bool scalar, std::vector<PhaseKernels>& ph
     phases[l] = scalar ? phase_kernels<G, double>(kind(l), order) : phase_kernels<G, Pack>(kind(l), order);
     for (int m = 0; m < n; ++m) {
       if (m == l || setup.phases[m].is_void()) continue;
-      const Tangent tangent = setup.contact(l, m) == Contact::adherence ? Tangent::bonded : Tangent::free;
+      const Contact::Kind contact = setup.contact(l, m).kind;
+      const Tangent tangent = contact == Contact::adherence  ? Tangent::bonded
+                              : contact == Contact::friction ? Tangent::rubbing
+                                                             : Tangent::free;
       pairs[l * n + m] = scalar ? pair_kernels<G, double>(kind(l), kind(m), tangent, order)
                                 : pair_kernels<G, Pack>(kind(l), kind(m), tangent, order);
     }
@@ -100,10 +103,12 @@ Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
   boundaries_ = resolve_boundaries(setup_, mesh_);
   check_axis(setup_, mesh_, boundaries_, mpi_);
   faces_ = make_faces(mesh_);
-  std::vector<FaceRange> inside{{0, mesh_.n_interior_faces}}, mirrors;
+  prescribe(mesh_, boundaries_, faces_);
+  std::vector<FaceRange> inside{{0, mesh_.n_interior_faces}}, mirrors, prescribed;
   for (std::size_t i = 0; i < boundaries_.size(); ++i) {
     const BoundaryGroup& group = mesh_.boundary_groups[i];
-    (is_mirror_image(boundaries_[i]) ? mirrors : inside).push_back({group.first, group.last});
+    const bool is_mirror = is_mirror_image(boundaries_[i]), is_given = is_prescribed(boundaries_[i]);
+    (is_mirror ? mirrors : is_given ? prescribed : inside).push_back({group.first, group.last});
     // zero gradient: the cell is its own neighbour; behind a mirror nothing is read
     if (!std::holds_alternative<Inflow>(boundaries_[i]))
       for (std::int32_t face = group.first; face < group.last; ++face) faces_.right[face] = faces_.left[face];
@@ -117,10 +122,15 @@ Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
                                  Interfaces::most_phases));
   allocate();
   interfaces_.emplace(faces_, fields_, std::move(inside), std::move(mirrors),
-                      std::vector<FaceRange>{{mesh_.n_interior_faces, mesh_.first_boundary_face()}});
+                      std::vector<FaceRange>{{mesh_.n_interior_faces, mesh_.first_boundary_face()}},
+                      std::move(prescribed));
+  for (int l = 0; l < fields_.n_phases(); ++l)
+    for (int m = 0; m < fields_.n_phases(); ++m)
+      if (l != m) interfaces_->set_friction(l, m, setup_.contact(l, m).coefficient);
   set_initial_state();
   if (!fields_.multiphase())
-    for (const Part part : {Part::inside, Part::mirror, Part::halo}) interfaces_->sort(faces_, fields_, part);
+    for (const Part part : {Part::inside, Part::mirror, Part::halo, Part::prescribed})
+      interfaces_->sort(faces_, fields_, part);
   if (setup_.scheme.order == 2) reconstruction_.emplace(mpi_, mesh_, faces_, fields_, kernels_, boundaries_);
   const bool sharp = setup_.scheme.interface == InterfaceTreatment::sharp;
   if (fields_.multiphase() && setup_.scheme.interface != InterfaceTreatment::diffuse) {

@@ -1,5 +1,6 @@
 #include "solver/splinter.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "physics/smooth_flow.hpp"
@@ -22,7 +23,8 @@ double volume_at(const Eos& eos, double e_h, double v, double p0) {
   const auto excess = [&](double volume) {
     return std::visit([&](const auto& law) { return law.energy(1 / volume, p0); }, eos) + p0 * volume - enthalpy;
   };
-  double low = 1e-6 * v, high = 1e6 * v;
+  const double densest = std::visit([](const auto& law) { return law.densest(); }, eos);
+  double low = std::max(1e-6 * v, (1 + 1e-9) / densest), high = 1e6 * v;
   if (!(excess(low) < 0 && excess(high) > 0)) return 0;
   while (high - low > 1e-14 * high) {
     const double middle = 0.5 * (low + high);

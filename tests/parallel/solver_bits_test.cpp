@@ -190,3 +190,33 @@ TEST_CASE("faces inside a rank are swept while the halo of a late neighbour is o
     CHECK(scene.solver->clock().halo_received > 0.9 * late);
   }
 }
+
+TEST_CASE("falling bodies that rub between driven walls give the same bits on any number of ranks") {
+  for (const std::string& scheme : {first_order, second_order})
+    check_bits_of_text(60, "bodies that rub", scheme + triangles + R"(gravity = [2e4, -1e5]
+[phase.copper]
+eos = { type = "mie_gruneisen", rho0 = 8930, c0 = 3940, s = 1.489, gamma0 = 2.02 }
+elastic = { mu = 46e9, rho0 = 8930 }
+[phase.aluminium]
+material = "aluminium"
+[contact]
+default = { type = "friction", coefficient = 0.3 }
+[[region]]
+shape = "everywhere"
+fill = "aluminium"
+pressure = 1e8
+velocity = [-30, 50]
+[[region]]
+shape = "half_space"
+point = [0.45, 0.5]
+normal = [-0.8, -0.4]
+fill = "copper"
+pressure = 1e8
+velocity = [30, -20]
+[boundary]
+left = { type = "wall", velocity = [20, 0] }
+right = { type = "no_slip", velocity = [0, "10*y"] }
+bottom = "no_slip"
+top = { type = "outlet", pressure = 1e5 }
+)");
+}

@@ -175,8 +175,8 @@ TEST_CASE("what does not exist yet is refused like what never will, not ignored"
   for (const char* key : {"checkpoint_every = 10", "stop_when = \"steady\"", "restart = true"})
     check_replaced("end_time = 1e-5", std::string(key) + "\nend_time = 1e-5", {"unknown key"});
   check_replaced("end_time = 1e-5", "scene = \"spherical\"\nend_time = 1e-5", {"allowed: plane, axisymmetric, space"});
-  check_refused(with(right, "[boundary]", "[contact]\ndefault = \"friction\"\n[boundary]"),
-                {"wrong.toml:20: ", "\"friction\"", "allowed: sliding, adherence"});
+  check_refused(with(right, "[boundary]", "[contact]\ndefault = \"glue\"\n[boundary]"),
+                {"wrong.toml:20: ", "\"glue\"", "allowed: sliding, adherence, friction"});
   check_refused(with(right, "[boundary]", "[scheme]\nlimiter = \"minmod\"\n[boundary]"),
                 {"wrong.toml:20: ", "limiter = \"minmod\"", "allowed: monotone, none"});
   check_refused(with(right, "[boundary]", "[scheme]\norder = 3\n[boundary]"), {"wrong.toml:20: ", "order = 3"});

@@ -106,3 +106,67 @@ TEST_CASE("a shock tube of helium and nitrogen reaches the exact pressure and ve
   INFO("element " << element << ", contact at " << exact.u_star << " m/s");
   check_contact(scene, exact, {{0.3 * exact.u_star, 0.9 * exact.u_star}, {1.03 * exact.u_star, 1.1 * exact.u_star}});
 }
+
+// With w = 1 / rho - b in the place of 1 / rho the laws of a gas with covolume are those of one without.
+TEST_CASE("a shock tube of water with covolume and air reaches the exact pressure, velocity and densities") {
+  constexpr double b = 6.61e-4, rho = 1000;
+  const Gas water{1.19, 7.028e8, rho / (1 - b * rho), 0, 1e9}, air{1.4, 0, 50, 0, 1e5};
+  const GasRiemann exact(water, air);
+  Scene scene = make_scene(
+      tube(2000, "4", 1.5e-4) +
+          "[phase.water]\neos = { type = \"noble_abel_stiffened_gas\", gamma = 1.19, p_inf = 7.028e8, b = 6.61e-4 }\n"
+          "[phase.air]\nmaterial = \"air\"\n" +
+          halves("water", {1.19, 7.028e8, rho, 0, 1e9}, "air", air),
+      ranks());
+  scene.run();
+  INFO("contact at " << exact.u_star << " m/s");
+  check_contact(scene, exact, {{0, 0.9 * exact.u_star}});
+  const Result result(scene);
+  const double density = mean(
+      scene, [&](auto cell) { return result.phase("water").density[cell]; },
+      [&](auto cell) {
+        const double xi = (result.centre(cell).x - 0.5) / scene.solver->time();
+        return xi > 0 && xi < 0.9 * exact.u_star;
+      });
+  const double expected = 1 / (1 / exact.at(0.5 * exact.u_star).rho + b);
+  INFO("density " << density << ", exact " << expected);
+  CHECK(std::fabs(density / expected - 1) < 1e-3);
+}
+
+TEST_CASE("two blocks of Mie and Grueneisen's copper strike each other: shocks on the line u_s = c0 + s u_p") {
+  const int order = GENERATE(1, 2);
+  const double u_p = GENERATE(300.0, 2000.0);
+  constexpr double rho0 = 8930, c0 = 3940, s = 1.489;
+  CAPTURE(order, u_p);
+  const double u_s = c0 + s * u_p, time = 0.35 / (u_s - u_p);
+  Scene scene =
+      make_scene(fmt::format("scheme = {{ order = {}, interface = \"diffuse\" }}\nmesh = \"@tube.geo\"\n"
+                             "mesh_parameters = {{ n = 800 }}\nend_time = {}\n[phase.copper]\ndensity = 8930\n"
+                             "eos = {{ type = \"mie_gruneisen\", rho0 = 8930, c0 = 3940, s = 1.489, gamma0 = 2.02 }}\n",
+                             order, time) +
+                     halves("copper", {1, 0, rho0, u_p, 0}, "copper", {1, 0, rho0, -u_p, 0}),
+                 ranks());
+  scene.run();
+  const Result result(scene);
+  const auto plateau = [&](double from, double to, const std::vector<double>& field) {
+    return mean(
+        scene, [&](auto cell) { return field[cell]; },
+        [&](auto cell) {
+          const double distance = std::fabs(result.centre(cell).x - 0.5);
+          return distance > from && distance < to;
+        });
+  };
+  const double p = plateau(0.05, 0.3, result.mixture.pressure), rho = plateau(0.05, 0.3, result.mixture.density);
+  INFO("pressure " << p << ", exact " << rho0 * u_s * u_p << "; density " << rho << ", exact "
+                   << rho0 * u_s / (u_s - u_p));
+  CHECK(p == Approx(rho0 * u_s * u_p).epsilon(1e-4));
+  CHECK(rho == Approx(rho0 * u_s / (u_s - u_p)).epsilon(1e-4));
+  // where the pressure is half: the shocks
+  double low = 1, high = 0;
+  for (std::int32_t cell = 0; cell < result.cells(); ++cell)
+    if (result.mixture.pressure[cell] > 0.5 * p) {
+      low = std::min(low, result.centre(cell).x);
+      high = std::max(high, result.centre(cell).x);
+    }
+  CHECK(high - low == Approx(0.7).epsilon(5e-3));
+}

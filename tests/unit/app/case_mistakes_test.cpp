@@ -72,7 +72,7 @@ TEST_CASE("keys and words of features that do not exist are refused like unknown
   check_mistake(rest + "[scheme]\norder = 3\n", "order", {"order = 3; allowed: a whole number"});
   check_mistake(rest + "[scheme]\ninterface = \"blurred\"\n", "interface", {"allowed: sharp, compressed, diffuse"});
   check_mistake(rest + "[scheme]\nlimiter = \"minmod\"\n", "limiter", {"allowed: monotone, none"});
-  check_mistake(rest + "[contact]\ndefault = \"friction\"\n", "default", {"allowed: sliding, adherence"});
+  check_mistake(rest + "[contact]\ndefault = \"glue\"\n", "default", {"allowed: sliding, adherence, friction"});
   CHECK(mistakes_in(rest + "[scheme]\norder = 1\n").empty());
 }
 
@@ -167,7 +167,7 @@ TEST_CASE("unknown names of materials, phases, shapes and boundaries are refused
                 {"unknown phase", "\"copper\"?"});
   check_replaced("shape = \"everywhere\"", "shape = \"spere\"\ncenter = [0, 0]\nradius = 1",
                  {"everywhere, half_space, box, sphere", "did you mean \"sphere\"?"});
-  check_replaced("\"wall\"", "\"wal\"", {"wall, symmetry", "did you mean \"wall\"?"});
+  check_replaced("\"wall\"", "\"wal\"", {"wall, no_slip, symmetry", "did you mean \"wall\"?"});
   check_replaced("\"wall\"", "{ type = \"transmisive\" }", {"did you mean \"transmissive\"?"});
   check_mistake(with(rest, "material = \"air\"", "eos = { type = \"ideal\", gamma = 1.4 }\ndensity = 1"), "eos",
                 {"stiffened_gas, ideal_gas", "did you mean \"ideal_gas\"?"});
@@ -311,6 +311,45 @@ TEST_CASE("an axis is one of an axisymmetric scene, which holds no more than a p
   CHECK_THROWS_WITH(check_for_geometry(read_text(axis), Geometry::plane), Contains("in a plane scene"));
   check_mistake(with(in("axisymmetric"), "pressure", "velocity = [0, 0, 1]\npressure"), "[[region]]",
                 {"velocity of phase \"air\" has a third component in an axisymmetric scene"});
+}
+
+TEST_CASE("an outlet needs a pressure that all phases can have, no slip a solid, a plane wall a plane velocity") {
+  check_replaced("\"*\" = \"wall\"", "\"*\" = \"outlet\"", {"missing key \"pressure\""});
+  check_replaced("\"*\" = \"wall\"", "\"*\" = { type = \"outlet\", pressure = 0 }",
+                 {"pressure = 0 outside phase \"air\"; allowed: 0 < pressure [Pa]"});
+  check_replaced("\"*\" = \"wall\"", "\"*\" = { type = \"outlet\", velocity = [1, 2], pressure = 1 }",
+                 {"unknown key \"velocity\"", "allowed: type, pressure"});
+  check_mistake(with(with(rest, "\"*\" = \"wall\"", "\"*\" = \"no_slip\""), "\"copper\"", "\"water\""), "\"*\"",
+                {"\"no_slip\" in a scene of fluids", "allowed: wall"});
+  CHECK_THAT(mistakes_in("scene = \"plane\"\n" +
+                         with(rest, "\"*\" = \"wall\"", "\"*\" = { type = \"wall\", velocity = [0, 0, 1] }")),
+             Contains("velocity of boundary \"*\" has a third component in a plane scene"));
+}
+
+TEST_CASE("a density beyond what an equation of state can hold is refused") {
+  const std::string dense =
+      with(rest, "material = \"air\"",
+           "density = 1600\neos = { type = \"noble_abel_stiffened_gas\", gamma = 1.19, p_inf = 7.028e8, b = 6.61e-4 }");
+  check_mistake(dense, "[[region]]", {"density 1600 of phase \"air\"; allowed: below 1512.8"});
+  CHECK(mistakes_in(with(dense, "1600", "1000")).empty());
+}
+
+TEST_CASE("friction needs a coefficient, and two solids") {
+  check_mistake(rest + "[contact]\ndefault = \"friction\"\n", "default", {"missing key \"coefficient\""});
+  check_mistake(rest + "[contact]\ndefault = { type = \"friction\", coefficient = -1 }\n", "default",
+                {"coefficient = -1", "0 <= coefficient"});
+  check_mistake(rest + "[contact]\ndefault = { type = \"sliding\", coefficient = 1 }\n", "default",
+                {"unknown key \"coefficient\"", "allowed: type"});
+  check_mistake(rest + "[contact]\n\"air-copper\" = { type = \"friction\", coefficient = 1 }\n", "\"air-copper\"",
+                {"friction of \"air-copper\", of which one is a fluid; allowed: sliding"});
+}
+
+TEST_CASE("gravity across the axis, or out of the plane, is refused") {
+  CHECK_THAT(mistakes_in("scene = \"axisymmetric\"\ngravity = [9.81, 1]\n" + rest),
+             Contains("gravity = [9.81, 1] in an axisymmetric scene; allowed: second number 0"));
+  CHECK_THAT(mistakes_in("scene = \"plane\"\ngravity = [0, 0, -9.81]\n" + rest),
+             Contains("gravity = [0, 0, -9.81] in a plane scene; allowed: third number 0 or none"));
+  CHECK(mistakes_in("scene = \"axisymmetric\"\ngravity = [-9.81, 0]\n" + rest).empty());
 }
 
 TEST_CASE("all mistakes of a case are told together, in the order of the file") {

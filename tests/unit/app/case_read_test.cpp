@@ -54,6 +54,20 @@ TEST_CASE("another type of equation of state replaces the material's") {
   CHECK(phase.density == 1.19);
 }
 
+TEST_CASE("every equation of state is read with its own keys") {
+  const auto eos_of = [](const std::string& keys) {
+    return read_text(with(rest, "material = \"air\"", "density = 900\neos = { type = " + keys + " }")).phases.at(0).eos;
+  };
+  const auto gas = std::get<NobleAbelStiffenedGas>(
+      eos_of("\"noble_abel_stiffened_gas\", gamma = 1.19, p_inf = 7.028e8, b = 6.61e-4"));
+  CHECK(gas.p_inf == 7.028e8);
+  CHECK(gas.b == 6.61e-4);
+  const auto law =
+      std::get<MieGruneisen>(eos_of("\"mie_gruneisen\", rho0 = 8930, c0 = 3940, s = 1.489, gamma0 = 2.02"));
+  CHECK(law.rho0 == 8930);
+  CHECK(law.gamma0 == 2.02);
+}
+
 TEST_CASE("a phase without a material is what its own keys say") {
   const std::string keys = "eos = { type = \"ideal_gas\", gamma = 1.3 }\nelastic = { mu = 5, rho0 = 7 }";
   const PhaseSetup phase = read_text(with(rest, "material = \"copper\"", keys)).phases.at(1);
@@ -132,6 +146,20 @@ TEST_CASE("boundaries are words or tables") {
   CHECK(inflow.states[0].velocity[0]({0, 3, 0}) == 3);
 }
 
+TEST_CASE("walls may move, solids cling to walls without slip, outlets have a pressure") {
+  const std::string text =
+      with(rest, "\"*\" = \"wall\"",
+           "a = \"wall\"\nb = { type = \"wall\", velocity = [\"y\", 2] }\nc = \"no_slip\"\n"
+           "d = { type = \"no_slip\", velocity = [0, 3] }\ne = { type = \"outlet\", pressure = 5 }");
+  const auto boundaries = read_text(text).boundaries;
+  REQUIRE(boundaries.size() == 5);
+  CHECK_FALSE(std::get<Wall>(boundaries[0].boundary).velocity);
+  CHECK((*std::get<Wall>(boundaries[1].boundary).velocity)[0]({0, 4, 0}) == 4);
+  CHECK(std::get<NoSlip>(boundaries[2].boundary).velocity[1].constant() == 0);
+  CHECK(std::get<NoSlip>(boundaries[3].boundary).velocity[1].constant() == 3);
+  CHECK(std::get<Outlet>(boundaries[4].boundary).pressure == 5);
+}
+
 TEST_CASE("a periodic pair named twice is one pair") {
   const std::string text = with(rest, "\"*\" = \"wall\"",
                                 "a = { type = \"periodic\", with = \"b\" }\nb = { type = \"periodic\", with = \"a\" }");
@@ -148,12 +176,22 @@ TEST_CASE("contacts hold for a pair in either order, the default for the others"
   CHECK(read_text(rest).contact(0, 1) == Contact::sliding);
 }
 
+TEST_CASE("contacts with friction have a coefficient") {
+  const std::string two = with(rest, "material = \"air\"", "material = \"aluminium\"");
+  const auto contact = [&](const std::string& keys) { return read_text(two + "[contact]\n" + keys).contact(1, 0); };
+  CHECK(contact("default = { type = \"friction\", coefficient = 0.3 }") == Contact(Contact::friction, 0.3));
+  CHECK(contact("\"copper-air\" = { type = \"friction\", coefficient = 0 }") == Contact(Contact::friction, 0));
+  CHECK(contact("\"air-copper\" = { type = \"adherence\" }") == Contact::adherence);
+}
+
 TEST_CASE("all optional keys of the top level and the output are read") {
   const Setup setup =
-      read_text("scene = \"space\"\ncfl = 2\nalpha_min = 1e-12\nmax_steps = 1e6\n" + rest +
+      read_text("scene = \"space\"\ngravity = [1, -9.81, 3]\ncfl = 2\nalpha_min = 1e-12\nmax_steps = 1e6\n" + rest +
                 "[scheme]\norder = 2\ninterface = \"diffuse\"\nlimiter = \"none\"\nlow_mach = \"on\"\n[output]\nfields "
                 "= \"all\"\nprecision = \"float64\"\nhistory_every = 3\ncount = 4\n");
   CHECK(setup.scene == Geometry::space);
+  CHECK(setup.gravity.y == -9.81);
+  CHECK(setup.gravity.z == 3);
   CHECK(setup.cfl == 2);
   CHECK(setup.alpha_min == 1e-12);
   CHECK(setup.scheme.order == 2);

@@ -156,3 +156,37 @@ TEST_CASE("the choice of the tangents does not change what a face does") {
     }
   }
 }
+
+TEST_CASE("solids that rub are bonded as long as that takes less than Coulomb's bound, and slip freely under none") {
+  Random random(8);
+  for (int sample = 0; sample < 300; ++sample) {
+    const Side l = random.face(), r = random.face();
+    const Star bonded = bonded_shear(l, r), held = rubbing_shear(l, r, 1e300), loose = rubbing_shear(l, r, 0.0);
+    CHECK((held.tau.y == bonded.tau.y && held.tau.z == bonded.tau.z));
+    CHECK((held.w_l.y == bonded.w_l.y && held.w_l.z == bonded.w_l.z));
+    CHECK((held.w_r.y == bonded.w_r.y && held.w_r.z == bonded.w_r.z));
+    const auto left = free_surface_velocity(l, 1.0), right = free_surface_velocity(r, -1.0);
+    CHECK((loose.tau.y == 0 && loose.tau.z == 0));
+    CHECK((loose.w_l.y == left.y && loose.w_l.z == left.z));
+    CHECK((loose.w_r.y == right.y && loose.w_r.z == right.z));
+  }
+}
+
+TEST_CASE("solids that slip under friction take its stress against the slip, which the waves of both reduce") {
+  Random random(9);
+  for (int sample = 0; sample < 300; ++sample) {
+    const Side l = random.face(), r = random.face();
+    const double z_l = l.rho * l.cs, z_r = r.rho * r.cs;
+    // the slip that is left where nothing holds, and the stress that would end it
+    const Star loose = rubbing_shear(l, r, 0.0);
+    const double slip_y = loose.w_r.y - loose.w_l.y, slip_z = loose.w_r.z - loose.w_l.z,
+                 slip = std::hypot(slip_y, slip_z);
+    const double needed = slip / (1 / z_l + 1 / z_r), most = needed * random.between(0.01, 0.99);
+    const Star star = rubbing_shear(l, r, most);
+    CHECK(std::hypot(star.tau.y, star.tau.z) == Approx(most).epsilon(1e-12));
+    CHECK(star.tau.y * slip_y + star.tau.z * slip_z == Approx(most * slip).epsilon(1e-9));
+    const double left = std::hypot(star.w_r.y - star.w_l.y, star.w_r.z - star.w_l.z);
+    CHECK(left == Approx(slip - most * (1 / z_l + 1 / z_r)).epsilon(1e-7));
+    CHECK(star.tau.y * (star.w_r.y - star.w_l.y) + star.tau.z * (star.w_r.z - star.w_l.z) >= 0);
+  }
+}

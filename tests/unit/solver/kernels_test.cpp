@@ -20,6 +20,7 @@ const std::vector<BusyScene> scenes = {
     {"two fluids, one an ideal gas", {"water", "air"}},
     {"sliding solids", {"copper", "aluminium"}},
     {"adhering solids", {"copper", "aluminium"}, Contact::adherence},
+    {"solids that rub", {"copper", "aluminium"}, {Contact::friction, 0.2}},
     {"solid and void", {"copper", "void"}},
     {"void and solid", {"void", "aluminium"}},
     {"fluid and void", {"void", "water"}},
