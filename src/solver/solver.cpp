@@ -17,7 +17,7 @@ namespace {
 /// Below this volume fraction an inadmissible state is given to a neighbour.
 constexpr double fragment = 1e-2, fragment_of_sharp = 3e-2;
 /// Contacts may take somewhat more of a phase from a cell than there is; neighbours give it back.
-constexpr double most_negative = -0.1;
+constexpr double most_negative = -3e-2;
 /// With sharp interfaces a volume fraction below this has no state of its own, admissible or not: round-off of what a
 /// step takes from it and gives it again may be more than it contains.
 constexpr double without_state = 1e-6;

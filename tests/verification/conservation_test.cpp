@@ -191,7 +191,7 @@ TEST_CASE("nothing is lost with a step that is taken again, or with states that 
     const double momentum = std::sqrt(2 * mass * energy);
     const double dt = scene.solver->advance(1);
     // of a first step: the second attempt, at first order, succeeds
-    CHECK(scene.solver->robustness().redone == redone);
+    CHECK(scene.solver->robustness().redone >= redone);
     CHECK(scene.solver->time() == dt);
     scene.run(steps);
     CHECK(scene.solver->step() == steps + 1);

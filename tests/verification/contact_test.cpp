@@ -153,7 +153,7 @@ Rubbing rub(const std::string& contact, const std::pair<std::string, std::string
 
 }  // namespace
 
-TEST_CASE("solids that rub slip under f p, or stick where that is more than adherence takes; no energy is lost") {
+TEST_CASE("solids that rub slip under f p, or stick where that is more than adherence takes and lose no energy") {
   const int which = GENERATE(0, 1, 2);
   const auto& scheme = schemes[which];
   const double f = GENERATE(0.02, 0.1, 0.25, 0.3);

@@ -128,7 +128,7 @@ TEST_CASE("a wall that moves along a bonded solid sends the exact shear wave int
   CHECK(front == Approx(c * time * speed).epsilon(2e-3));
 }
 
-TEST_CASE("a bonded wall at rest holds a solid that slides past it; nothing but shear passes") {
+TEST_CASE("a bonded wall at rest holds a solid that slides past it and passes nothing but shear") {
   Scene scene = make_scene(second_order + R"(mesh = "@box.geo"
 mesh_parameters = { n = 20, element = 3 }
 end_time = 1e-4

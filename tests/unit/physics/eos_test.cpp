@@ -96,7 +96,7 @@ TEST_CASE("shocks of Mie and Grueneisen's material lie on its line u_s = c0 + s 
 }
 
 TEST_CASE(
-    "Mie and Grueneisen's material at rest has p = e = 0 and its c0; pressure and sound speed are continuous there") {
+    "Mie and Grueneisen's material at rest has p = e = 0 and its c0 and is continuous there") {
   const MieGruneisen copper{8930, 3940, 1.489, 2.02};
   CHECK(copper.pressure(8930.0, 0.0) == 0);
   CHECK(copper.energy(8930.0, 0.0) == 0);
