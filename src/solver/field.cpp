@@ -1,5 +1,7 @@
 #include "solver/field.hpp"
 
+#include "mesh/neighbour_exchange.hpp"
+
 namespace cobasis {
 
 void Fields::complete(std::int32_t cell) {
@@ -44,6 +46,22 @@ COBASIS_KERNEL void Fields::complete(const CellList& cells, std::int32_t n) {
       fraction = select(only == Pack(static_cast<double>(k)), gather<Pack>(phases[k].alpha.data(), at), fraction);
     only = select(present == one && fraction == one, only, Pack(-1.0));
     for (int j = 0; j < pack_width; ++j) pure[at[j]] = static_cast<std::int32_t>(lane(only, j));
+  }
+}
+
+void Fields::share_alpha(const Mesh& mesh, NeighbourExchange& exchange) {
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
+    std::vector<double>& out = exchange.outgoing(n);
+    out.clear();
+    for (const std::int32_t cell : mesh.neighbours[n].send)
+      for (const Phase& phase : phases) out.push_back(phase.alpha[cell]);
+  }
+  exchange.start();
+  exchange.finish();
+  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
+    const double* in = exchange.incoming(n).data();
+    for (std::int32_t i = 0; i < mesh.neighbours[n].receive_count; ++i)
+      for (Phase& phase : phases) phase.alpha[mesh.neighbours[n].receive_first + i] = *in++;
   }
 }
 

@@ -127,6 +127,9 @@ struct Rings {
   AlignedVector<double> lever;           ///< radius of the section's centroid over that of the ring's
 };
 
+class NeighbourExchange;
+struct Mesh;
+
 struct Fields {
   std::vector<Phase> phases;
   int dimension = 2;
@@ -152,6 +155,8 @@ struct Fields {
   void complete(std::int32_t cell);
   /// The same for the first n of a list.
   void complete(const CellList& cells, std::int32_t n);
+  /// Halo cells get their owners' volume fractions, through an exchange with room for them. Collective.
+  void share_alpha(const Mesh& mesh, NeighbourExchange& exchange);
 };
 
 }  // namespace cobasis

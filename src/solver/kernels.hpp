@@ -8,6 +8,10 @@
 
 namespace cobasis {
 
+/// Contacts inside cells, of a phase before a void at pressure p0 and of two phases.
+using FreeSurfaceKernel = void (*)(Phase&, double p0, ContactList&, std::int32_t n);
+using ContactKernel = void (*)(Phase&, Phase&, ContactList&, std::int32_t n);
+
 struct PhaseKernels {
   void (*primitives)(Phase&, const CellList&, std::int32_t n, BadCells&) = nullptr;
   /// Order 2: states on both sides of the faces of the listed cells; [Around][with averaged gradients].
@@ -27,14 +31,12 @@ struct PhaseKernels {
   void (*update_mixed)(const Faces&, const AlignedVector<double>& volume, const Rings*, Phase&, const CellList&,
                        std::int32_t n, double dt, double centring) = nullptr;
   void (*hoop_of_cells)(Phase&, const Rings&, const CellList&, std::int32_t n) = nullptr;  ///< null in space
-  void (*free_surface_in_cells)(Phase&, double p0, ContactList&, std::int32_t n) = nullptr;
-  void (*free_surface_speed)(Phase&, double p0, ContactList&, std::int32_t n) = nullptr;
+  FreeSurfaceKernel free_surface_in_cells = nullptr, free_surface_speed = nullptr;
   int n_conserved = 0, n_primitive = 0, n_flux = 0, n_gain = 0, n_side = 0, n_face_state = 0, n_slopes = 0, n_inner = 0;
 };
 struct PairKernels {
   void (*sweep)(Faces&, Phase&, Phase&, const PairList&, Segment) = nullptr;
-  void (*contact_in_cells)(Phase&, Phase&, ContactList&, std::int32_t n) = nullptr;
-  void (*contact_speed)(Phase&, Phase&, ContactList&, std::int32_t n) = nullptr;
+  ContactKernel contact_in_cells = nullptr, contact_speed = nullptr;
 };
 
 /// `Real` = Pack for runs; double to compare with.

@@ -71,22 +71,6 @@ Redistribution::Redistribution(const Mpi& mpi, const Mesh& mesh, const Fields& f
   }
 }
 
-void Redistribution::share_alpha(const Mesh& mesh, Fields& fields) {
-  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
-    std::vector<double>& out = alpha_.outgoing(n);
-    out.clear();
-    for (const std::int32_t cell : mesh.neighbours[n].send)
-      for (const Phase& phase : fields.phases) out.push_back(phase.alpha[cell]);
-  }
-  alpha_.start();
-  alpha_.finish();
-  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
-    const double* in = alpha_.incoming(n).data();
-    for (std::int32_t i = 0; i < mesh.neighbours[n].receive_count; ++i)
-      for (Phase& phase : fields.phases) phase.alpha[mesh.neighbours[n].receive_first + i] = *in++;
-  }
-}
-
 /// The pairs about owned cells.
 bool Redistribution::choose(const Mesh& mesh, const Faces& faces, const Fields& fields, int k, std::int32_t cell,
                             double more_than) {
@@ -301,7 +285,7 @@ void Redistribution::run(const Mesh& mesh, const Faces& faces, Fields& fields,
   pairs_.clear();
   small_.clear();
   bool remote = false;
-  share_alpha(mesh, fields);
+  fields.share_alpha(mesh, alpha_);
   for (int k = 0; k < fields.n_phases(); ++k) {
     const Phase& phase = fields.phases[k];
     if (phase.is_void) continue;
@@ -326,7 +310,7 @@ void Redistribution::run(const Mesh& mesh, const Faces& faces, Fields& fields,
 void Redistribution::mend(const Mesh& mesh, const Faces& faces, Fields& fields,
                           std::span<const std::pair<std::int32_t, int>> volumes) {
   pairs_.clear();
-  share_alpha(mesh, fields);
+  fields.share_alpha(mesh, alpha_);
   for (const auto& [cell, k] : volumes) counters_.alone += !choose(mesh, faces, fields, k, cell, 0);
   counters_.mended += static_cast<std::int64_t>(pairs_.size());
   settle(mesh, faces, fields, std::numeric_limits<double>::infinity());

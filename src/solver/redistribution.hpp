@@ -73,7 +73,6 @@ class Redistribution {
     std::vector<std::int32_t> chosen;   ///< of owned cells: by how many neighbours
   };
 
-  void share_alpha(const Mesh& mesh, Fields& fields);
   bool choose(const Mesh& mesh, const Faces& faces, const Fields& fields, int k, std::int32_t cell, double more_than);
   void settle(const Mesh& mesh, const Faces& faces, Fields& fields, double target);
   void share_choices(const Mesh& mesh);

@@ -326,6 +326,13 @@ void SharpInterface::act(const Faces& faces, Fields& fields, std::span<const std
       for (int c = 0; c < kernels_[k].n_inner; ++c)
         for (const std::int32_t cell : touched) fields.phases[k].inner.component(c)[cell] = 0;
   for (const std::int32_t cell : touched) contacts_of(faces, fields, cell);
+  run_contacts(fields, &PhaseKernels::free_surface_in_cells, &PairKernels::contact_in_cells);
+}
+
+/// The contacts listed, by one kernel before a void and one between phases.
+void SharpInterface::run_contacts(Fields& fields, FreeSurfaceKernel PhaseKernels::*before_void,
+                                  ContactKernel PairKernels::*between) {
+  const int n = fields.n_phases();
   for (int l = 0; l < n; ++l)
     for (int m = 0; m < n; ++m) {
       ContactList& list = contacts_[l * n + m];
@@ -333,9 +340,9 @@ void SharpInterface::act(const Faces& faces, Fields& fields, std::span<const std
       if (count == 0) continue;
       list.fill();
       if (fields.phases[m].is_void)
-        kernels_[l].free_surface_in_cells(fields.phases[l], fields.phases[m].void_pressure, list, count);
+        (kernels_[l].*before_void)(fields.phases[l], fields.phases[m].void_pressure, list, count);
       else
-        pairs_[l * n + m].contact_in_cells(fields.phases[l], fields.phases[m], list, count);
+        (pairs_[l * n + m].*between)(fields.phases[l], fields.phases[m], list, count);
     }
 }
 

@@ -79,6 +79,7 @@ class SharpInterface {
   void lend_to_faces(Fields& fields, int k, std::int32_t cell) const;
   bool has_state(const Fields& fields, int k, std::int32_t cell) const;
   void run_speeds(Fields& fields);
+  void run_contacts(Fields& fields, FreeSurfaceKernel PhaseKernels::*before_void, ContactKernel PairKernels::*between);
   double blend_of(const Fields& fields, int k, std::int32_t cell, double dt) const;
   double left_weight(const Faces& faces, const Fields& fields, std::int32_t face) const;
   double side_fraction(const Fields& fields, int k, std::int32_t face, int side, double dt) const;

@@ -110,6 +110,7 @@ class Solver {
   void choose_present(CellList& cells, const Phase& phase);
   void convert_present();
   void convert_owned(double dt);
+  void add_halo_followers(int k);
   int find_void() const;
   void relax_dust();
   void relax_splinters(std::vector<std::pair<std::int32_t, int>>& inadmissible);

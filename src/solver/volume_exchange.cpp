@@ -104,22 +104,6 @@ double VolumeExchange::promised(std::int32_t cell, int k) const {
   return volume;
 }
 
-void VolumeExchange::share_alpha(const Mesh& mesh, Fields& fields) {
-  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
-    std::vector<double>& out = alpha_.outgoing(n);
-    out.clear();
-    for (const std::int32_t cell : mesh.neighbours[n].send)
-      for (const Phase& phase : fields.phases) out.push_back(phase.alpha[cell]);
-  }
-  alpha_.start();
-  alpha_.finish();
-  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
-    const double* in = alpha_.incoming(n).data();
-    for (std::int32_t i = 0; i < mesh.neighbours[n].receive_count; ++i)
-      for (Phase& phase : fields.phases) phase.alpha[mesh.neighbours[n].receive_first + i] = *in++;
-  }
-}
-
 void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields& fields, std::int32_t cell, int k,
                              bool forced) {
   const auto alpha = [&](int phase, std::int32_t at) { return fields.phases[phase].alpha[at]; };
@@ -442,7 +426,7 @@ const std::vector<std::int32_t>& VolumeExchange::run(const Mesh& mesh, const Fac
   taken_.clear();
   deposits_.clear();
   extractions_.clear();
-  share_alpha(mesh, fields);
+  fields.share_alpha(mesh, alpha_);
   ask(mesh, faces, fields, dt, candidates, forced, expected);
   deliver(mesh, fields);
   serve(mesh, fields);

@@ -88,7 +88,6 @@ class VolumeExchange {
     double volume;
   };
 
-  void share_alpha(const Mesh& mesh, Fields& fields);
   void find_small(const Fields& fields, std::span<const std::int32_t> candidates,
                   const std::vector<std::pair<std::int32_t, int>>& forced);
   void ask(const Mesh& mesh, const Faces& faces, const Fields& fields, double dt,

@@ -12,6 +12,11 @@ void spoil_wave_speed(Phase& phase, std::int32_t cell) {
   phase.primitive[Layout<Plane, Kind::solid>::ch2][cell] = -1e12;
 }
 
+void overfill_shared_cells(Phase& phase, std::int32_t) {
+  for (double& alpha : phase.alpha)
+    if (alpha > 0 && alpha < 1) alpha = 1.5;
+}
+
 /// A scene of first order whose second step fails a number of times: a number of a cell is spoilt meanwhile.
 struct Failing {
   int failures, attempts = 0;
@@ -94,6 +99,14 @@ TEST_CASE("a state that no attempt at the step makes admissible stops the run, w
     CHECK(text.find("pressure -") != std::string::npos);
     CHECK(text.find("step 1,") != std::string::npos);
   }
+}
+
+TEST_CASE("less than nothing of a void in a cell stops the run too, with the cell and the volume fraction") {
+  Failing run({"copper", "void"}, 6, overfill_shared_cells);
+  const std::string text = report(run);
+  CAPTURE(text);
+  CHECK(text.find("'void' left its admissible states in cell") != std::string::npos);
+  CHECK(text.find("volume fraction -0.") != std::string::npos);
 }
 
 TEST_CASE("a step taken again from the state before gives the bits of one that had not failed") {
