@@ -155,7 +155,8 @@ COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volu
       }
       const Real alpha = gather<Real>(phase.alpha.data(), at) + rate * alpha_gain;
       scatter(alpha, phase.alpha.data(), at);
-      cobasis_rate = select(alpha != Real(0.0), rate / alpha, Real(0.0));
+      // what is left of a phase that leaves a cell for many steps ends near 1e-308, where 1 / alpha overflows
+      cobasis_rate = select(magnitude(alpha) > Real(1e-200), rate / alpha, Real(0.0));
     }
     for (int c = 0; c < L::cobasis; ++c) {
       double* const to = phase.conserved[c].data();

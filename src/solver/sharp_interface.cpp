@@ -19,7 +19,7 @@ std::vector<std::size_t> capacities(const Mesh& mesh, std::size_t per_cell) {
 std::size_t numbers_per_cell(const Fields& fields) {
   std::size_t states = 0;
   for (const Phase& phase : fields.phases) states += phase.conserved.size() + phase.primitive.size();
-  return fields.phases.size() * (10 + states);
+  return fields.phases.size() * 12 + states;
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ SharpInterface::SharpInterface(const Mpi& mpi, const Mesh& mesh, const Faces& fa
     Phase& phase = fields.phases[k];
     for (auto& side : phase.wetted) side.assign(faces.area.size(), 0);
     health_.emplace_back(mesh.n_cells(), 0);
-    followed_.emplace_back(mesh.n_cells(), -1);
+    borrowed_.emplace_back(mesh.n_cells(), -1);
     if (phase.is_void) continue;
     phase.inner = CellNumbers(mesh.n_owned + pack_width, kernels[k].n_inner);
     std::fill_n(phase.inner.component(0), phase.inner.stride * kernels[k].n_inner, 0.0);

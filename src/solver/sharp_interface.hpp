@@ -74,8 +74,11 @@ class SharpInterface {
   void adopt(Fields& fields, int k, std::int32_t cell, std::int32_t from, const CutPlane& plane, double speed,
              int ring);
   void follow(Fields& fields, std::span<const std::pair<std::int32_t, int>> followers);
-  bool borrows(const Fields& fields, int k, std::int32_t cell) const;
-  void borrow(Fields& fields, int k, std::int32_t cell, std::int32_t from) const;
+  /// Whether the state of a phase that the cell's arrays hold is another cell's.
+  bool borrows(int k, std::int32_t cell) const { return borrowed_[k][cell] == step_; }
+  void borrow(Fields& fields, int k, std::int32_t cell, std::int32_t from);
+  void borrow_missing(Fields& fields, std::int32_t cell);
+  std::int32_t richest_neighbour(const Fields& fields, int k, std::int32_t cell) const;
   void lend_to_faces(Fields& fields, int k, std::int32_t cell) const;
   bool has_state(const Fields& fields, int k, std::int32_t cell) const;
   void run_speeds(Fields& fields);
@@ -111,9 +114,10 @@ class SharpInterface {
   std::vector<std::int32_t> moment_cells_;       // owned cells that gather
   std::vector<ContactList> contacts_;            // [l * n + m], l < m, the void last
   std::vector<std::vector<std::pair<std::int32_t, int>>> speed_users_;
-  std::vector<std::vector<std::int8_t>> health_;     // [phase][cell]: see find_health
-  std::vector<std::vector<std::int64_t>> followed_;  // [phase][cell]: the last step in which it was a follower
-  std::vector<std::int32_t> following_;              // cells of the present followers
+  std::vector<std::vector<std::int8_t>> health_;  // [phase][cell]: see find_health
+  std::vector<std::vector<std::int64_t>>
+      borrowed_;                         // [phase][cell]: the last step in which it held another cell's state
+  std::vector<std::int32_t> following_;  // cells of the present followers
   NeighbourExchange exchange_;
   bool shares_planes_;
   std::int64_t step_ = 0;

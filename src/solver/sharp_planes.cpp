@@ -70,23 +70,30 @@ void SharpInterface::put_plane(const Fields& fields, int k, std::int32_t cell, c
 /// Whether the cell's arrays hold a state of the phase: its own, or the one with which it would arrive, or would come
 /// back where less than nothing of it is left.
 bool SharpInterface::has_state(const Fields& fields, int k, std::int32_t cell) const {
-  const double alpha = fields.phases[k].alpha[cell];
-  if (alpha > 0 || (knows_plane(cell) && fields.pure[cell] >= 0)) return true;
-  if (alpha == 0 || (k == rest_ && planes_of_.size() > 1)) return false;
-  const int of = k == rest_ ? planes_of_[0] : k;
-  return valid(of, cell) && cells_[of][cell].ring > 1;
+  return fields.phases[k].alpha[cell] > 0 || borrows(k, cell);
 }
 
-/// Whether the state of a phase that the cell's arrays hold is another cell's.
-bool SharpInterface::borrows(const Fields& fields, int k, std::int32_t cell) const {
-  return !fields.phases[k].is_void && (!(fields.phases[k].alpha[cell] > 0) || followed_[k][cell] == step_);
-}
-
-void SharpInterface::borrow(Fields& fields, int k, std::int32_t cell, std::int32_t from) const {
+void SharpInterface::borrow(Fields& fields, int k, std::int32_t cell, std::int32_t from) {
   Phase& phase = fields.phases[k];
   for (auto& component : phase.primitive) component[cell] = component[from];
   for (int c = fields.first_cobasis(); c < phase.n_conserved(); ++c)
     phase.conserved[c][cell] = phase.conserved[c][from];
+  borrowed_[k][cell] = step_;
+}
+
+/// The neighbour that has most of a phase and a state of its own; -1: none.
+std::int32_t SharpInterface::richest_neighbour(const Fields& fields, int k, std::int32_t cell) const {
+  const auto& alpha = fields.phases[k].alpha;
+  std::int32_t richest = -1;
+  for_each_face(cell, [&](std::int32_t f, int side) {
+    if (f >= mesh_.first_boundary_face()) return;
+    const std::int32_t other = side == 0 ? mesh_.right[f] : mesh_.left[f];
+    if (!(alpha[other] > 0) || borrows(k, other)) return;
+    if (richest < 0 || alpha[other] > alpha[richest] ||
+        (alpha[other] == alpha[richest] && mesh_.global_id[other] < mesh_.global_id[richest]))
+      richest = other;
+  });
+  return richest;
 }
 
 /// Followers take the state of the neighbour that has most of the phase; where none has a state of its own, the one
@@ -94,22 +101,22 @@ void SharpInterface::borrow(Fields& fields, int k, std::int32_t cell, std::int32
 void SharpInterface::follow(Fields& fields, std::span<const std::pair<std::int32_t, int>> followers) {
   following_.clear();
   for (const auto& [cell, k] : followers) {
-    followed_[k][cell] = step_;
+    borrowed_[k][cell] = step_;
     following_.push_back(cell);
   }
   for (const auto& [cell, k] : followers) {
     if (cell >= mesh_.n_owned) continue;
-    const auto& alpha = fields.phases[k].alpha;
-    std::int32_t source = fields.n_all;
-    for_each_face(cell, [&](std::int32_t f, int side) {
-      if (f >= mesh_.first_boundary_face()) return;
-      const std::int32_t other = side == 0 ? mesh_.right[f] : mesh_.left[f];
-      if (!(alpha[other] > 0) || followed_[k][other] == step_) return;
-      if (source == fields.n_all || alpha[other] > alpha[source] ||
-          (alpha[other] == alpha[source] && mesh_.global_id[other] < mesh_.global_id[source]))
-        source = other;
-    });
-    borrow(fields, k, cell, source);
+    const std::int32_t richest = richest_neighbour(fields, k, cell);
+    borrow(fields, k, cell, richest < 0 ? fields.n_all : richest);
+  }
+}
+
+/// Phases that are absent from a cell but not from a neighbour may come from there.
+void SharpInterface::borrow_missing(Fields& fields, std::int32_t cell) {
+  for (int k = 0; k < fields.n_phases(); ++k) {
+    if (fields.phases[k].is_void || has_state(fields, k, cell)) continue;
+    const std::int32_t richest = richest_neighbour(fields, k, cell);
+    if (richest >= 0) borrow(fields, k, cell, richest);
   }
 }
 
@@ -125,13 +132,12 @@ void SharpInterface::lend_to_faces(Fields& fields, int k, std::int32_t cell) con
   });
 }
 
-/// The planes of cells that other ranks have as halo, and the states that absent phases have borrowed there.
+/// The planes of cells that other ranks have as halo, and the states that phases have borrowed there.
 void SharpInterface::exchange(Fields& fields) {
   const auto for_each_borrowed = [&](std::int32_t cell, const auto& visit) {
-    const bool arriving = knows_plane(cell);
     for (int k = 0; k < fields.n_phases(); ++k) {
+      if (!borrows(k, cell)) continue;
       Phase& phase = fields.phases[k];
-      if (!borrows(fields, k, cell) || (!(phase.alpha[cell] > 0) && !arriving)) continue;
       for (auto& component : phase.primitive) visit(component[cell]);
       for (int c = fields.first_cobasis(); c < phase.n_conserved(); ++c) visit(phase.conserved[c][cell]);
     }
@@ -140,7 +146,10 @@ void SharpInterface::exchange(Fields& fields) {
     std::vector<double>& out = exchange_.outgoing(i);
     out.clear();
     for (const std::int32_t cell : mesh_.neighbours[i].send) {
-      for (const auto& of_phase : health_) out.push_back(of_phase[cell]);
+      for (int k = 0; k < fields.n_phases(); ++k) {
+        out.push_back(health_[k][cell]);
+        out.push_back(borrows(k, cell));
+      }
       for (const int k : planes_of_) {
         const Cell& c = cells_[k][cell];
         out.push_back(valid(k, cell) ? c.ring : 0);
@@ -149,9 +158,8 @@ void SharpInterface::exchange(Fields& fields) {
                                    c.cut.centroid.z, c.cut.area, c.speed})
           out.push_back(value);
       }
-    }
-    for (const std::int32_t cell : mesh_.neighbours[i].send)
       for_each_borrowed(cell, [&](double value) { out.push_back(value); });
+    }
   }
   exchange_.start();
   exchange_.finish();
@@ -160,16 +168,18 @@ void SharpInterface::exchange(Fields& fields) {
     const Neighbour& neighbour = mesh_.neighbours[i];
     for (std::int32_t cell = neighbour.receive_first; cell < neighbour.receive_first + neighbour.receive_count;
          ++cell) {
-      for (auto& of_phase : health_) of_phase[cell] = static_cast<std::int8_t>(*in++);
+      for (int k = 0; k < fields.n_phases(); ++k) {
+        health_[k][cell] = static_cast<std::int8_t>(*in++);
+        borrowed_[k][cell] = *in++ != 0 ? step_ : -1;
+      }
       for (const int k : planes_of_) {
         const int ring = static_cast<int>(*in++);
         if (ring == 0) continue;
         cells_[k][cell] = {{{in[0], in[1], in[2]}, in[3]}, {in[7], {in[4], in[5], in[6]}}, in[8], 1, ring, step_};
         in += 9;
       }
-    }
-    for (std::int32_t cell = neighbour.receive_first; cell < neighbour.receive_first + neighbour.receive_count; ++cell)
       for_each_borrowed(cell, [&](double& value) { value = *in++; });
+    }
   }
 }
 
@@ -222,6 +232,8 @@ void SharpInterface::place(const Faces& faces, Fields& fields,
   }
   settled_ = true;
   find_speeds(fields);
+  for (const auto* cells : {&cut_cells_, &mixed_cells_})
+    for (const std::int32_t cell : *cells) borrow_missing(fields, cell);
   exchange(fields);
   spread(fields, 2);
   seed(faces, fields);
@@ -233,13 +245,13 @@ void SharpInterface::place(const Faces& faces, Fields& fields,
   if (fields.phases[planes_of_[0]].face_states.stride == 0) return;
   const auto lend = [&](std::int32_t cell) {
     for (int k = 0; k < fields.n_phases(); ++k)
-      if (borrows(fields, k, cell)) lend_to_faces(fields, k, cell);
+      if (borrows(k, cell)) lend_to_faces(fields, k, cell);
   };
-  for (const std::int32_t cell : frontier_) lend(cell);
+  for (const auto* cells : {&cut_cells_, &mixed_cells_, &frontier_})
+    for (const std::int32_t cell : *cells) lend(cell);
   for (const std::int32_t cell : following_)
     if (cell < mesh_.n_owned) lend(cell);
-  for (std::int32_t cell = mesh_.n_owned; cell < mesh_.n_cells(); ++cell)
-    if (knows_plane(cell)) lend(cell);
+  for (std::int32_t cell = mesh_.n_owned; cell < mesh_.n_cells(); ++cell) lend(cell);
 }
 
 /// The planes move with the contact of the phases that they divide.
@@ -274,7 +286,10 @@ void SharpInterface::adopt(Fields& fields, int k, std::int32_t cell, std::int32_
                            double speed, int ring) {
   Cell& c = cells_[k][cell];
   for (int phase = 0; phase < fields.n_phases(); ++phase)
-    if (borrows(fields, phase, cell) && followed_[phase][cell] != step_) borrow(fields, phase, cell, from);
+    if (!fields.phases[phase].is_void && !(fields.phases[phase].alpha[cell] > 0) &&
+        (phase == k || !borrows(phase, cell)) && has_state(fields, phase, from))
+      borrow(fields, phase, cell, from);
+  borrow_missing(fields, cell);
   c = {plane, {}, speed, 1, ring, step_};
   if (corners_at_[cell] < 0) {
     corners_at_[cell] = static_cast<std::int32_t>(corners_.size());
@@ -287,6 +302,7 @@ void SharpInterface::adopt(Fields& fields, int k, std::int32_t cell, std::int32_
 
 /// Cells that are not cut but beside cells of the ring before take the plane that passes nearest to them.
 void SharpInterface::spread(Fields& fields, int ring) {
+  if (ring == 2) frontier_.clear();
   for (const int k : planes_of_) {
     next_.clear();
     const auto visit = [&](std::int32_t cell) {
@@ -321,7 +337,6 @@ void SharpInterface::spread(Fields& fields, int ring) {
       });
       adopt(fields, k, cell, source, best, speed, ring);
     }
-    if (ring == 2) frontier_.clear();
     frontier_.insert(frontier_.end(), next_.begin(), next_.end());
   }
 }

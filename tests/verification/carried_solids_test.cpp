@@ -104,3 +104,48 @@ TEST_CASE("solids at the pressure of the void around them stay as they are where
                         space ? "[700.0, -500.0, 100.0]" : "[700.0, -500.0]");
   check_uniform(scene, 3e9, {700, -500, 100}, 200);
 }
+
+TEST_CASE("two solids that touch fly through a void with sharp interfaces as one would, corners and edges included") {
+  const auto [mesh, space] = GENERATE(table<std::string, bool>({
+      {"\"@box.geo\"\nmesh_parameters = { n = 40, element = 3 }", false},
+      {"\"@box.geo\"\nmesh_parameters = { n = 40, element = 4 }", false},
+      {"\"@box_space.geo\"\nmesh_parameters = { n = 12, element = 8 }", true},
+  }));
+  CAPTURE(mesh);
+  const auto box = [&, in_space = space](const std::string& fill, double left, double right) {
+    const auto point = [&](double x, double y, double z) {
+      return in_space ? fmt::format("[{}, {}, {}]", x, y, z) : fmt::format("[{}, {}]", x, y);
+    };
+    return fmt::format(
+        "[[region]]\nshape = \"box\"\nlow = {}\nhigh = {}\nfill = \"{}\"\npressure = 1e5\nvelocity = {}\n",
+        point(left, 0.2, 0.2), point(right, 0.55, 0.6), fill, point(300, 200, 100));
+  };
+  Scene scene = make_scene("mesh = " + mesh + R"(
+end_time = 0.3e-3
+scheme = { interface = "sharp" }
+[phase.copper]
+material = "copper"
+[phase.aluminium]
+material = "aluminium"
+[phase.around]
+void = { pressure = 1e5 }
+[[region]]
+shape = "everywhere"
+fill = "around"
+)" + box("aluminium", 0.2, 0.45) +
+                               box("copper", 0.45, 0.6) + "[boundary]\n\"*\" = \"transmissive\"\n",
+                           ranks());
+  scene.run();
+  const Result result(scene);
+  for (const PhaseSnapshot& phase : result.snapshot.phases) {
+    if (phase.is_void) continue;
+    const auto here = [&](std::int32_t cell) { return phase.alpha[cell] > 0.1; };
+    CAPTURE(phase.name);
+    CHECK(range(
+              scene, [&](auto cell) { return phase.pressure[cell]; }, here)
+              .distance_to(1e5) < 20);
+    CHECK(range(
+              scene, [&](auto cell) { return phase.velocity[0][cell]; }, here)
+              .distance_to(300) < 1e-5);
+  }
+}
