@@ -156,6 +156,7 @@ void Solver::convert_owned(double dt) {
       for (const std::int32_t cell : bad_) remaining.emplace_back(cell, k);
     }
     inadmissible = std::move(remaining);
+    if (redistribution_) mend(inadmissible);  // what was exchanged may have been owed
   }
   followers_.clear();
   for (const auto& [cell, k] : inadmissible)
@@ -223,7 +224,7 @@ void Solver::relax_splinters(std::vector<std::pair<std::int32_t, int>>& inadmiss
 
 /// Averages what is not admissible with neighbours until it is; what cannot be mended stays in the list.
 void Solver::mend(std::vector<std::pair<std::int32_t, int>>& inadmissible) {
-  constexpr int most_passes = 4;
+  constexpr int most_passes = 16;
   for (int pass = 0; pass < most_passes && mpi_.any(!inadmissible.empty()); ++pass) {
     redistribution_->mend(mesh_, faces_, fields_, inadmissible);
     std::vector<std::pair<std::int32_t, int>> changed = redistribution_->changed(), remaining;
