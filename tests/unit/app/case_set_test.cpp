@@ -48,6 +48,15 @@ TEST_CASE("bare words are text, and quotes may hold dots and stars") {
   CHECK(set(rest, "boundary.*", "{ type = \"symmetry\" }").boundaries.size() == 1);
 }
 
+TEST_CASE("a phase that --set makes and nothing is filled with is taken for a misspelt one") {
+  CHECK_THAT(
+      mistakes_of_set(rest, "phase.coper.material", "copper"),
+      StartsWith("--set phase.coper.material: phase \"coper\" fills no region; allowed: air, copper; did you mean "
+                 "\"copper\"?"));
+  CHECK_THAT(mistakes_of_set(rest, "phase.coper.elastic.mu", "1e9"), Contains("did you mean \"copper\"?"));
+  CHECK(read_text(rest, {{{"phase.water.material", "water"}, {"region.0.fill", "water"}}, ""}).phases.size() == 3);
+}
+
 TEST_CASE("the later --set wins, and the command line replaces what it excludes in the file") {
   CHECK(read_text(rest, {{{"cfl", "0.1"}, {"cfl", "0.2"}}, ""}).cfl == 0.2);
   const Setup count = set(rest + "[output]\nevery = 1e-4\n", "output.count", "7");
