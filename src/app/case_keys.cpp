@@ -262,12 +262,17 @@ void add_regions(std::vector<KeyTable>& tables) {
   std::ranges::copy(shapes, std::back_inserter(tables));
 
   const KeyInfo density{.key = "density",
+                        .kind = KeyKind::field,
                         .unit = "kg/m^3",
                         .range = positive,
                         .fallback = "rho0 det(cobasis) of a solid, the phase's of a fluid",
                         .meaning = "density"};
-  const KeyInfo pressure{
-      .key = "pressure", .unit = "Pa", .range = any_number, .fallback = "required", .meaning = "p, not -sigma"};
+  const KeyInfo pressure{.key = "pressure",
+                         .kind = KeyKind::field,
+                         .unit = "Pa",
+                         .range = any_number,
+                         .fallback = "required",
+                         .meaning = "p, not -sigma; under gravity a formula: \"1e5 + 9810*(1 - y)\""};
   const KeyInfo velocity{.key = "velocity",
                          .kind = KeyKind::vector_field,
                          .unit = "m/s",

@@ -45,8 +45,8 @@ struct PhaseSetup {
 
 /// Initial or inflow state of one phase.
 struct PhaseState {
-  std::optional<double> density;                                ///< [kg/m^3]; default: of the cobasis, or the phase's
-  double pressure = 0;                                          ///< p, not -sigma [Pa]
+  std::optional<Expression> density;                            ///< [kg/m^3]; default: of the cobasis, or the phase's
+  Expression pressure;                                          ///< p, not -sigma [Pa]
   std::array<Expression, 3> velocity;                           ///< [m/s]
   std::optional<std::array<std::array<double, 3>, 3>> cobasis;  ///< rows: x, y, z components of (e^1, e^2, e^3)
 };

@@ -153,6 +153,16 @@ TEST_CASE("a cell that no region covers is refused with its place") {
                 {"wrong.toml:15: ", "the cell at (0.6875, ", "is only to 60 % covered", "shape = \"everywhere\""});
 }
 
+TEST_CASE("a formula that gives what a phase cannot hold is refused with the place") {
+  const std::string text = with(right, "pressure = 1e5", "pressure = \"1e5*(0.9 - y)\"");
+  check_refused(text, {"wrong.toml:9: ", "of phase \"air\" at (", "allowed: 0 < pressure [Pa]"});
+  check_refused(with(right, "pressure = 1e5", "density = \"0.5 - y\"\npressure = 1e5"),
+                {"wrong.toml:9: density = -0.0625 of phase \"air\" at (", "allowed: 0 < density"});
+  check_refused(with(right, "left = \"transmissive\"",
+                     "left = { type = \"inflow\", fill = \"air\", pressure = \"1e5*(0.5 - y)\" }"),
+                {"boundary 'left'", "of phase \"air\" at (0, ", "allowed: 0 < pressure [Pa]"});
+}
+
 TEST_CASE("boundaries and the mesh's groups must match, both ways") {
   check_replaced("left = ", "lefft = ", {"'lefft' is not a physical group of the mesh", "bottom, right, top, left"});
   check_refused(with(right, "\"*\"", "bottom = \"wall\"\ntop"),

@@ -209,6 +209,15 @@ TEST_CASE("states that the materials cannot hold are refused") {
                 {"two different points"});
 }
 
+TEST_CASE("pressure and density are numbers or formulas, and a formula that is a number is checked like one") {
+  CHECK(mistakes_in(with(rest, "pressure = 1e5", "pressure = \"1e5 - 9.81*y\"\ndensity = \"1 + x\"")).empty());
+  check_replaced("pressure = 1e5", "pressure = \"-2*3\"", {"pressure = -6 of phase \"air\"", "0 < pressure"});
+  check_replaced("pressure = 1e5", "pressure = \"1e5 - 9.81*h\"", {"\"1e5 - 9.81*h\"", "a formula in x, y, z"});
+  check_replaced("pressure = 1e5", "pressure = [1e5]", {"allowed: a number, or a formula in x, y, z [Pa]"});
+  check_mistake(with(rest, "pressure = 1e5", "pressure = 1e5\ndensity = \"0*2\""),
+                "density = ", {"density = \"0*2\"", "0 < density"});
+}
+
 TEST_CASE("a void is one, alone in its table, has no state and goes with no traces") {
   const std::string free =
       with(rest, "[phase.copper]\nmaterial = \"copper\"\n", "[phase.free]\nvoid = { pressure = 2e5 }\n");

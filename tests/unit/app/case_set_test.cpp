@@ -24,8 +24,8 @@ TEST_CASE("key by key, --set changes and creates") {
   CHECK(set(rest, "cfl", "0.25").cfl == 0.25);
   CHECK(set(rest, "mesh_parameters.n", "500").mesh_parameters.at("n") == 500);
   CHECK(set(rest, "output.count", "3").output.count == 3);
-  CHECK(set(rest, "region.0.pressure", "2e5").regions[0].filling.states[0].pressure == 2e5);
-  CHECK(set(rest, "region.0.phase.air.density", "3").regions[0].filling.states[0].density == 3.0);
+  CHECK(set(rest, "region.0.pressure", "2e5").regions[0].filling.states[0].pressure.constant() == 2e5);
+  CHECK(set(rest, "region.0.phase.air.density", "3").regions[0].filling.states[0].density->constant() == 3.0);
   CHECK(set(rest, "phase.air.eos.gamma", "1.3").phases[0].name == "air");
   CHECK(std::get<IdealGas>(set(rest, "phase.air.eos.gamma", "1.3").phases[0].eos).gamma == 1.3);
 }
