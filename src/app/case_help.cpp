@@ -22,6 +22,8 @@ std::string type_of(const KeyInfo& info) {
       return words;
     case KeyKind::words:
       return fmt::format("\"all\", or an array of: {}", words);
+    case KeyKind::names:
+      return "text, or an array of texts";
     case KeyKind::file_name:
       return "text of letters, digits, _ - . that does not begin with .";
     case KeyKind::expression:

@@ -16,6 +16,7 @@ enum class KeyKind {
   text,
   word,          ///< text, one of KeyInfo::words
   words,         ///< an array of them, or "all"
+  names,         ///< text, or an array of texts
   file_name,     ///< text that can be part of a file name and of a column's header
   expression,    ///< text: a condition in x, y, z
   field,         ///< a number or an expression

@@ -36,6 +36,8 @@ class ValueCheck {
         return word(value);
       case KeyKind::words:
         return words(value);
+      case KeyKind::names:
+        return text(value) || array(value, 1, 1000, [this](const TomlValue& x) { return text(x) || refuse(x); });
       case KeyKind::file_name:
         return file_name(value);
       case KeyKind::expression:

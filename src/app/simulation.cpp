@@ -142,8 +142,18 @@ RunResult run_scene(const Scene& scene, const Mpi& mpi, Speech speech) {
   }
 
   RunResult result;
-  const double interval = setup.output.every.value_or(setup.end_time / setup.output.count.value_or(20));
-  Schedule outputs(interval, setup.end_time), rows(setup.end_time / 1000, setup.end_time);
+  const auto schedule_of = [&](const auto& of) {
+    return Schedule(of.every.value_or(setup.end_time / of.count.value_or(20)), setup.end_time);
+  };
+  Schedule outputs = schedule_of(setup.output);
+  std::vector<Schedule> slices;
+  for (const SliceSetup& slice : setup.slices) slices.push_back(schedule_of(slice));
+  const auto next_output = [&] {
+    double next = outputs.next();
+    for (const Schedule& slice : slices) next = std::min(next, slice.next());
+    return next;
+  };
+  Schedule rows(setup.end_time / 1000, setup.end_time);
   Progress progress(std::cout, mpi.root() ? progress_style(speech == Speech::last_line || speech == Speech::nothing)
                                           : ProgressStyle::silent);
   const auto cost = [&] {
@@ -153,7 +163,15 @@ RunResult run_scene(const Scene& scene, const Mpi& mpi, Speech speech) {
   };
   const auto write_due = [&](bool last) {
     const double time = solver.time();
-    if (outputs.due(time) || last) output.write(solver.snapshot());
+    const bool fields = outputs.due(time) || last;
+    std::vector<std::size_t> cut;
+    for (std::size_t i = 0; i < slices.size(); ++i)
+      if (slices[i].due(time) || last) cut.push_back(i);
+    if (fields || !cut.empty()) {
+      const Snapshot snapshot = solver.snapshot();
+      if (fields) output.write(snapshot);
+      for (const std::size_t i : cut) output.write_slice(i, snapshot);
+    }
     const bool row = setup.history_every ? solver.step() % *setup.history_every == 0 : rows.due(time);
     if (!row && !last) return;
     const Timer writing;
@@ -169,7 +187,7 @@ RunResult run_scene(const Scene& scene, const Mpi& mpi, Speech speech) {
     return solver.time() >= setup.end_time || (setup.max_steps && solver.step() >= *setup.max_steps);
   };
   while (!done()) {
-    solver.advance(outputs.next());
+    solver.advance(next_output());
     write_due(done());
     progress.update({solver.time(), setup.end_time, solver.step(), timer.seconds(), cost()});
   }

@@ -25,7 +25,7 @@ material = "water"
 [[region]]
 shape = "everywhere"
 fill = "water"
-pressure = "1e5 + 1000*1000*(1 - y)"
+pressure = "1000*1000*(1 - y) + 1e5"
 [boundary]
 "*" = "wall"
 )",
@@ -122,9 +122,9 @@ TEST_CASE("two layers of fluid under gravity, each with its own formulas, stay a
   CAPTURE(interface);
   std::vector<double> speeds;
   for (const int n : {20, 40}) {
-    Scene scene = make_scene("scheme = { interface = \"" + interface +
-                                 "\" }\nmesh = \"@box.geo\"\nmesh_parameters = { length = 0.5, n = " +
-                                 std::to_string(n / 2) + R"( }
+    Scene scene = make_scene(
+        "scheme = { interface = \"" + interface +
+            "\" }\nmesh = \"@box.geo\"\nmesh_parameters = { length = 0.5, n = " + std::to_string(n / 2) + R"( }
 end_time = 5e-3
 gravity = [0, -1000]
 [phase.water]
@@ -135,17 +135,17 @@ material = "water"
 shape = "everywhere"
 fill = "oil"
 density = "600 + 200*y"
-pressure = "2e5 + 1000*(600*(1 - y) + 100*(1 - y^2))"
+pressure = "1000*(600*(1 - y) + 100*(1 - y^2)) + 2e5"
 [[region]]
 shape = "half_space"
 point = [0, 0.5]
 normal = [0, -1]
 fill = "water"
-phase.water = { density = "1100 - 200*y", pressure = "2e5 + 1000*(375 + 1100*(0.5 - y) - 100*(0.25 - y^2))" }
+phase.water = { density = "1100 - 200*y", pressure = "1000*(375 + 1100*(0.5 - y) - 100*(0.25 - y^2)) + 2e5" }
 [boundary]
 "*" = "wall"
 )",
-                             ranks());
+        ranks());
     scene.run();
     const Result result(scene);
     speeds.push_back(
