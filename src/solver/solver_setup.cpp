@@ -279,8 +279,14 @@ void Solver::set_initial_state() {
   } catch (const InputError& error) {
     mistake = error.what();
   }
-  if (mpi_.any(!mistake.empty()))
-    throw InputError(mistake.empty() ? "another rank found the initial state wrong" : mistake);
+  if (const auto first = mpi_.min(mistake.empty() ? mpi_.size() : mpi_.rank()); first < mpi_.size()) {
+    std::vector<std::int64_t> letters;
+    if (mpi_.rank() == static_cast<int>(first)) letters.assign(mistake.begin(), mistake.end());
+    letters = mpi_.gather(std::span<const std::int64_t>(letters));
+    mistake.assign(letters.begin(), letters.end());
+    mpi_.broadcast(mistake);
+    throw InputError(mistake);
+  }
 
   if (fields_.multiphase()) {
     for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) fields_.complete(cell);
