@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/command_line.hpp"
+#include "app/new_case.hpp"
 #include "app/simulation.hpp"
 #include "app/study.hpp"
 #include "math/errors.hpp"
@@ -31,6 +32,9 @@ void execute(const cobasis::CommandLine& command, const cobasis::Mpi& mpi) {
         request.trust_geo = command.trust_geo;
         std::cout << cobasis::format(cobasis::mesh_info(request));
       }
+      return;
+    case Command::make:
+      if (mpi.root()) std::cout << cobasis::write_new_case(command.file, command.like);
       return;
     case Command::print:
       if (mpi.root()) std::cout << command.text;

@@ -7,6 +7,7 @@
 
 #include "app/case_parts.hpp"
 #include "math/errors.hpp"
+#include "math/suggestion.hpp"
 
 namespace cobasis {
 namespace {
@@ -93,6 +94,30 @@ void read_scheme(const CaseTable& top, CaseReading& reading) {
                     reading.setup.alpha_min));
 }
 
+/// `--set phase.coper.material=copper` makes a phase "coper", which nobody asked for if nothing is filled with it.
+void check_phases_of_command_line(const CaseTable& top, CaseReading& reading) {
+  const TomlEntry *phases = top.table("phase"), *regions = top.entry("region");
+  const Setup& setup = reading.setup;
+  if (!phases || !regions || std::get<TomlArray>(regions->value.data).size() != setup.regions.size()) return;
+  for (std::size_t k = 0; k < setup.phases.size(); ++k) {
+    const std::string& name = setup.phases[k].name;
+    const auto fills = [&](const Filling& filling) { return filling.alpha[k] > setup.alpha_min; };
+    const auto enters = [&](const BoundarySetup& boundary) {
+      const auto* inflow = std::get_if<Inflow>(&boundary.boundary);
+      return inflow && fills(inflow->filling);
+    };
+    const TomlEntry& entry = std::get<TomlTable>(phases->value.data)[k];
+    if (!entry.value.where.from_command_line() || std::ranges::any_of(setup.boundaries, enters) ||
+        std::ranges::any_of(setup.regions, [&](const RegionSetup& region) { return fills(region.filling); }))
+      continue;
+    std::vector<std::string> others;
+    for (const PhaseSetup& phase : setup.phases)
+      if (phase.name != name) others.push_back(phase.name);
+    reading.mistakes.add(entry.value.where,
+                         fmt::format("phase \"{}\" fills no region; {}", name, allowed_names(name, others)));
+  }
+}
+
 }  // namespace
 
 Setup read_case(const std::string& file, const CaseOverrides& overrides) {
@@ -107,6 +132,7 @@ Setup read_case(const std::string& file, const CaseOverrides& overrides) {
   read_contacts(top, reading);
   read_regions(top, reading);
   read_boundaries(top, reading);
+  check_phases_of_command_line(top, reading);
   read_output(top, reading);
   if (!overrides.output.empty()) {
     reading.setup.output.directory = overrides.output;

@@ -66,20 +66,22 @@ struct Sources {
   bool pressure_is_right;
 };
 
-/// A phase that is there has a pressure its equation of state can hold, and a density.
+/// A phase that is there has a pressure its equation of state can hold, and a density. Formulas the solver looks at,
+/// cell by cell.
 void check_state(const PhaseSetup& phase, const PhaseState& state, const Sources& from, Mistakes& mistakes) {
   const double lowest = std::visit([](const auto& eos) { return eos.lowest_pressure(); }, phase.eos);
   if (!from.has_pressure)
     mistakes.add(from.state, fmt::format("missing key \"pressure\" for phase \"{0}\"; allowed: pressure = ... [Pa], or "
                                          "phase.{0}.pressure",
                                          phase.name));
-  else if (from.pressure_is_right && !(state.pressure > lowest))
+  else if (from.pressure_is_right && state.pressure.is_constant() && !(state.pressure.constant() > lowest))
     mistakes.add(from.pressure, fmt::format("pressure = {} of phase \"{}\"; allowed: {} < pressure [Pa]",
-                                            state.pressure, phase.name, lowest));
+                                            state.pressure.constant(), phase.name, lowest));
   const double densest = std::visit([](const auto& eos) { return eos.densest(); }, phase.eos);
-  double density = state.density.value_or(phase.density.value_or(0));
+  double density = phase.density.value_or(0);
+  if (state.density && state.density->is_constant()) density = state.density->constant();
   if (!state.density && state.cobasis) density = phase.elastic->rho0 * determinant(*state.cobasis);
-  if (!(density < densest))
+  if (!(state.density && !state.density->is_constant()) && !(density < densest))
     mistakes.add(from.state, fmt::format("density {} of phase \"{}\"; allowed: below {} [kg/m^3], by its eos", density,
                                          phase.name, densest));
   if (!phase.is_solid() && !from.has_density && !phase.density)
@@ -103,11 +105,12 @@ void read_cobasis(const CaseTable& own, const PhaseSetup& phase, PhaseState& sta
 
 /// A pure void takes no state, but may repeat that its pressure is its pressure and that it rests.
 void check_void_filling(const CaseTable& table, const PhaseSetup& phase, Mistakes& mistakes) {
-  const auto pressure = table.number("pressure");
-  if (pressure && *pressure != *phase.void_pressure)
-    mistakes.add(table.where("pressure"),
-                 fmt::format("pressure = {} of the void \"{}\"; allowed: none, or {} as in [phase.{}]", *pressure,
-                             phase.name, *phase.void_pressure, phase.name));
+  const auto pressure = table.expression("pressure");
+  if (pressure && !(pressure->is_constant() && pressure->constant() == *phase.void_pressure))
+    mistakes.add(
+        table.where("pressure"),
+        fmt::format("pressure = {} of the void \"{}\"; allowed: none, or {} as in [phase.{}]",
+                    description(table.entry("pressure")->value), phase.name, *phase.void_pressure, phase.name));
   const auto rests = [](const Expression& u) { return u.is_constant() && u.constant() == 0; };
   const auto velocity = table.vector_field("velocity");
   if (velocity && !std::ranges::all_of(*velocity, rests))
@@ -124,7 +127,7 @@ std::optional<Filling> read_filling(CaseTable& table, CaseReading& reading) {
   table.at_most_one({"fill", "alpha"});
   const auto alpha = read_alpha(table, reading);
   const std::size_t n_phases = reading.setup.phases.size();
-  const std::optional<double> pressure = table.number("pressure"), density = table.number("density");
+  const std::optional<Expression> pressure = table.expression("pressure"), density = table.expression("density");
   const auto velocity = table.vector_field("velocity");
 
   std::vector<const TomlEntry*> own(n_phases, nullptr);
@@ -160,12 +163,12 @@ std::optional<Filling> read_filling(CaseTable& table, CaseReading& reading) {
     if (own[k]) {
       const CaseTable its(std::get<TomlTable>(own[k]->value.data), own[k]->where, keys_of("filling phase.NAME"),
                           reading.mistakes);
-      const auto own_pressure = its.number("pressure");
+      const auto own_pressure = its.expression("pressure");
       if (its.has("pressure"))
         from = {its.where(), its.where("pressure"), true, from.has_density, own_pressure.has_value()};
       from.has_density = from.has_density || its.has("density");
       state.pressure = own_pressure.value_or(state.pressure);
-      if (const auto x = its.number("density")) state.density = x;
+      if (const auto x = its.expression("density")) state.density = x;
       state.velocity = its.vector_field("velocity").value_or(state.velocity);
       read_cobasis(its, phase, state);
     }

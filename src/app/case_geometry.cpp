@@ -43,6 +43,12 @@ class GeometryCheck {
       check(line.to, fmt::format("line \"{}\": to", line.name));
     }
     for (const ProbeSetup& probe : setup_.probes) check(probe.at, fmt::format("probe \"{}\": at", probe.name));
+    for (const SliceSetup& slice : setup_.slices) {
+      where_ = slice.where + ": ";
+      check(slice.point, fmt::format("slice \"{}\": point", slice.name));
+      check(slice.normal, fmt::format("slice \"{}\": normal", slice.name));
+    }
+    where_ = setup_.case_file + ": ";
     for (const IntegralSetup& integral : setup_.integrals) {
       if (const auto* mean = std::get_if<Mean>(&integral.what)) {
         where_ = mean->where + ": ";

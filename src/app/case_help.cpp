@@ -22,10 +22,14 @@ std::string type_of(const KeyInfo& info) {
       return words;
     case KeyKind::words:
       return fmt::format("\"all\", or an array of: {}", words);
+    case KeyKind::names:
+      return "text, or an array of texts";
     case KeyKind::file_name:
       return "text of letters, digits, _ - . that does not begin with .";
     case KeyKind::expression:
       return "text: a formula in x, y, z";
+    case KeyKind::field:
+      return "a number, or a formula in x, y, z";
     case KeyKind::point:
       return "an array of 2 or 3 numbers";
     case KeyKind::vector_field:

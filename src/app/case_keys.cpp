@@ -126,6 +126,7 @@ std::vector<KeyTable> top_level() {
         {.key = "output", .kind = KeyKind::table, .fallback = "see there", .meaning = "what is written"},
         {.key = "line", .kind = KeyKind::tables, .fallback = "none", .meaning = "fields along lines at every output"},
         {.key = "probe", .kind = KeyKind::tables, .fallback = "none", .meaning = "fields at points over time"},
+        {.key = "slice", .kind = KeyKind::tables, .fallback = "none", .meaning = "fields where planes cut the mesh"},
         {.key = "integral", .kind = KeyKind::tables, .fallback = "none", .meaning = "columns of history.csv"}}});
   tables.push_back(
       {"[mesh_parameters]", "", {{.key = "NAME", .meaning = "a number the .geo names in DefineConstant"}}});
@@ -262,12 +263,17 @@ void add_regions(std::vector<KeyTable>& tables) {
   std::ranges::copy(shapes, std::back_inserter(tables));
 
   const KeyInfo density{.key = "density",
+                        .kind = KeyKind::field,
                         .unit = "kg/m^3",
                         .range = positive,
                         .fallback = "rho0 det(cobasis) of a solid, the phase's of a fluid",
                         .meaning = "density"};
-  const KeyInfo pressure{
-      .key = "pressure", .unit = "Pa", .range = any_number, .fallback = "required", .meaning = "p, not -sigma"};
+  const KeyInfo pressure{.key = "pressure",
+                         .kind = KeyKind::field,
+                         .unit = "Pa",
+                         .range = any_number,
+                         .fallback = "required",
+                         .meaning = "p, not -sigma; under gravity a formula: \"1e5 + 9810*(1 - y)\""};
   const KeyInfo velocity{.key = "velocity",
                          .kind = KeyKind::vector_field,
                          .unit = "m/s",
@@ -354,6 +360,15 @@ void add_boundaries_and_output(std::vector<KeyTable>& tables) {
          .words = {"float32", "float64"},
          .fallback = "float32",
          .meaning = "in files"},
+        {.key = "only",
+         .kind = KeyKind::names,
+         .fallback = "all cells",
+         .meaning = "phases: fields/ holds only cells in which one of them is; slices hold all"},
+        {.key = "only_above",
+         .unit = "-",
+         .range = {0, 1, true, false},
+         .fallback = "0",
+         .meaning = "with only: cells with a volume fraction above this"},
         {.key = "history_every",
          .kind = KeyKind::integer,
          .range = from(1, 1e15),
@@ -374,6 +389,18 @@ void add_boundaries_and_output(std::vector<KeyTable>& tables) {
   tables.push_back({"[[probe]]",
                     "",
                     {name, {.key = "at", .kind = KeyKind::point, .unit = "m", .required = true, .meaning = "point"}}});
+  tables.push_back(
+      {"[[slice]]",
+       "its own series for ParaView, NAME.pvd",
+       {name,
+        {.key = "point", .kind = KeyKind::point, .unit = "m", .required = true, .meaning = "on the plane"},
+        {.key = "normal", .kind = KeyKind::point, .unit = "-", .required = true, .meaning = "any length but zero"},
+        {.key = "every", .unit = "s", .range = positive, .fallback = "as [output]", .meaning = "time between slices"},
+        {.key = "count",
+         .kind = KeyKind::integer,
+         .range = from(1, 1e6),
+         .fallback = "as [output]",
+         .meaning = "number of slices"}}});
   tables.push_back({"[[integral]]",
                     "extent, quantile or mean",
                     {name,

@@ -16,8 +16,10 @@ enum class KeyKind {
   text,
   word,          ///< text, one of KeyInfo::words
   words,         ///< an array of them, or "all"
+  names,         ///< text, or an array of texts
   file_name,     ///< text that can be part of a file name and of a column's header
   expression,    ///< text: a condition in x, y, z
+  field,         ///< a number or an expression
   point,         ///< 2 or 3 numbers
   vector_field,  ///< 2 or 3 numbers or expressions
   matrix,        ///< 3 x 3 numbers

@@ -113,7 +113,27 @@ void read_output_table(CaseTable& table, CaseReading& reading) {
   if (const auto count = table.integer("count")) output.count = static_cast<int>(*count);
   if (const auto fields = table.words("fields")) output.fields = *fields;
   output.float64 = table.text("precision") == "float64";
+  for (const std::string& name : table.names("only"))
+    if (const auto k = reading.phase(name, table.where("only"))) output.only.push_back(*k);
+  output.only_above = table.number("only_above").value_or(0);
+  if (table.has("only_above") && !table.has("only"))
+    reading.mistakes.add(table.where("only_above"), "only_above without only; allowed: with only = \"PHASE\"");
   reading.setup.history_every = table.integer("history_every");
+}
+
+SliceSetup read_slice(CaseTable& table, const std::string& name, CaseReading& reading) {
+  table.at_most_one({"every", "count"});
+  SliceSetup slice{name, table.point("point").value_or(Point{}), table.point("normal").value_or(Point{}), {},
+                   {},   reading.mistakes.where(table.where())};
+  if (table.point("normal") && slice.normal.x == 0 && slice.normal.y == 0 && slice.normal.z == 0)
+    reading.mistakes.add(table.where("normal"), "normal of length 0; allowed: any other length");
+  slice.every = table.number("every");
+  if (const auto count = table.integer("count")) slice.count = static_cast<int>(*count);
+  if (!slice.every && !slice.count) {
+    slice.every = reading.setup.output.every;
+    slice.count = reading.setup.output.count;
+  }
+  return slice;
 }
 
 }  // namespace
@@ -133,6 +153,11 @@ void read_output(const CaseTable& top, CaseReading& reading) {
   }
   for (const CaseTable& table : top.tables("probe", keys_of("[[probe]]")))
     setup.probes.push_back({files.read(table), table.point("at").value_or(Point{})});
+  Names series({std::filesystem::path(setup.case_file).stem().string()}, "the output directory");
+  for (CaseTable& table : top.tables("slice", keys_of("[[slice]]"))) {
+    const std::string name = series.read(table);
+    setup.slices.push_back(read_slice(table, name, reading));
+  }
   Names columns({"step", "time", "dt"}, "history.csv");
   for (CaseTable& table : top.tables("integral", keys_of("[[integral]]"))) {
     const std::string name = columns.read(table);

@@ -97,6 +97,16 @@ std::optional<std::vector<std::string>> CaseTable::words(std::string_view key) c
   return words;
 }
 
+std::vector<std::string> CaseTable::names(std::string_view key) const {
+  const TomlEntry* found = entry(key);
+  if (!found) return {};
+  const auto* array = std::get_if<TomlArray>(&found->value.data);
+  if (!array) return {text_of(found->value)};
+  std::vector<std::string> names;
+  std::ranges::transform(*array, std::back_inserter(names), text_of);
+  return names;
+}
+
 std::optional<Point> CaseTable::point(std::string_view key) const {
   const TomlEntry* found = entry(key);
   return found ? std::optional(point_of(std::get<TomlArray>(found->value.data))) : std::nullopt;

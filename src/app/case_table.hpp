@@ -50,6 +50,7 @@ class CaseTable {
   std::optional<std::int64_t> integer(std::string_view key) const;
   std::optional<std::string> text(std::string_view key) const;
   std::optional<std::vector<std::string>> words(std::string_view key) const;
+  std::vector<std::string> names(std::string_view key) const;
   std::optional<Point> point(std::string_view key) const;
   std::optional<std::array<Expression, 3>> vector_field(std::string_view key) const;
   std::optional<Expression> expression(std::string_view key) const;

@@ -36,10 +36,14 @@ class ValueCheck {
         return word(value);
       case KeyKind::words:
         return words(value);
+      case KeyKind::names:
+        return text(value) || array(value, 1, 1000, [this](const TomlValue& x) { return text(x) || refuse(x); });
       case KeyKind::file_name:
         return file_name(value);
       case KeyKind::expression:
         return text(value) ? formula(value) : refuse(value);
+      case KeyKind::field:
+        return text(value) ? formula(value) : number(value, false);
       case KeyKind::point:
         return array(value, 2, 3, [this](const TomlValue& x) { return number(x, false); });
       case KeyKind::vector_field:
@@ -108,7 +112,7 @@ class ValueCheck {
   bool formula(const TomlValue& value) {
     try {
       const Expression expression(*text(value));
-      if (!expression.is_constant() || std::isfinite(expression.constant())) return true;
+      if (!expression.is_constant() || info_.range.contains(expression.constant())) return true;
       return refuse(value);
     } catch (const InputError& error) {
       mistakes_.add(value.where, fmt::format("{}: {}; allowed: {}", name_, error.what(), allowed_values(info_)));

@@ -1,11 +1,14 @@
 #include "app/command_line.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "app/case_keys.hpp"
+#include "app/material_help.hpp"
+#include "app/new_case.hpp"
 #include "math/errors.hpp"
 #include "math/suggestion.hpp"
 
@@ -14,7 +17,14 @@ namespace {
 
 using Command = CommandLine::Command;
 
-const std::vector<std::string> commands{"run", "check", "study", "info", "help", "--help", "-h", "--version"};
+const std::vector<std::string> commands{"run", "check", "study", "info", "new", "help", "--help", "-h", "--version"};
+
+const std::vector<std::string> topics{"case", "materials"};
+
+/// What a command works on, in words.
+const char* operand_of(Command command) {
+  return command == Command::info ? "MESH" : command == Command::make ? "NAME" : "CASE";
+}
 
 /// At the first = outside quotes, which a key may need: boundary."a=b".
 std::pair<std::string, std::string> key_and_value(const std::string& text) {
@@ -100,9 +110,15 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
   study->add_flag("--quiet", line.quiet, "no progress and no tables, only the last line");
   add_set(study);
   add("info", "cells, groups and quality of a mesh", "MESH", "mesh file (.geo, .msh)");
-  CLI::App* help =
-      app.add_subcommand("help", "help case: every key of a case file, its unit, default and allowed range");
-  help->add_option("topic", topic, "case")->type_name("");
+  CLI::App* make = app.add_subcommand("new", "write a commented case to start from, NAME.toml, and its mesh NAME.geo");
+  make->add_option("NAME", line.file, "name of the case")->type_name("");
+  make->add_option("--like", line.like, fmt::format("instead: {}", fmt::join(case_templates(), ", ")))
+      ->type_name("CASE")
+      ->default_val(case_templates().front());
+  CLI::App* help = app.add_subcommand(
+      "help",
+      "help case: every key of a case file, its unit, default and allowed range; help materials: the built-in library");
+  help->add_option("topic", topic, "case or materials")->type_name("");
 
   if (arguments.empty()) throw InputError(fmt::format("no command; {}", allowed_names("", commands)));
   if (std::ranges::find(commands, arguments[0]) == commands.end())
@@ -123,21 +139,21 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
   const CLI::App* command = app.get_subcommands().front();
   if (const auto extras = command->remaining(); !extras.empty()) refuse_extras(*command, extras.front());
   if (command == help) {
-    if (!topic.empty() && topic != "case")
-      throw InputError(
-          fmt::format("help on \"{}\"; {}", topic, allowed_names(topic, std::vector<std::string>{"case"})));
     if (topic.empty()) return read_command_line({"--help"});
-    line.text = describe_case_keys();
+    if (std::ranges::find(topics, topic) == topics.end())
+      throw InputError(fmt::format("help on \"{}\"; {}", topic, allowed_names(topic, topics)));
+    line.text = topic == "case" ? describe_case_keys() : describe_materials();
     return line;
   }
   line.command = command == run     ? Command::run
                  : command == check ? Command::check
                  : command == study ? Command::study
+                 : command == make  ? Command::make
                                     : Command::info;
   sort_out_settings(line, settings);
   if (line.file.empty())
-    throw InputError(fmt::format("cobasis {}: no file; allowed: cobasis {} {}", command->get_name(),
-                                 command->get_name(), line.command == Command::info ? "MESH" : "CASE"));
+    throw InputError(fmt::format("cobasis {0}: no {1}; allowed: cobasis {0} {2}", command->get_name(),
+                                 line.command == Command::make ? "name" : "file", operand_of(line.command)));
   return line;
 }
 

@@ -15,6 +15,7 @@ struct CommandLine {
     check,  ///< the case `file`
     study,  ///< the case `file` on meshes of different size
     info,   ///< on the mesh `file`
+    make,   ///< the case `file` like the template `like`
     print   ///< `text`, and be done: help, version, the keys of a case
   };
   Command command = Command::print;
@@ -22,6 +23,7 @@ struct CommandLine {
   CaseOverrides overrides;
   bool trust_geo = false;  ///< let a .geo run commands and read other files
   bool quiet = false;
+  std::string like;  ///< of make
   StudyOptions study;
   std::string text;
 };

@@ -51,22 +51,30 @@ void remove_files(const std::filesystem::path& directory, const Condition& condi
 
 Output::Output(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mpi& mpi)
     : setup_(setup),
+      mesh_(mesh),
       mpi_(mpi),
-      stem_(std::filesystem::path(setup.case_file).stem().string()),
-      vtu_(mesh, setup.output.float64),
+      fields_{std::filesystem::path(setup.case_file).stem().string(), "fields"},
       integrals_(setup.integrals, geometry, mesh, mpi, setup.phases),
       latest_integrals_(setup.integrals.size(), std::numeric_limits<double>::quiet_NaN()) {
   check_table_names(setup);
   try {
     together([&] {
       const std::string probe = fmt::format(".writable.{}", mpi.rank());
-      for (const char* folder : {"", "/fields", "/lines"}) {
+      for (const char* folder : {"", "/fields", "/lines"})
         make_writable_directory(setup_.output.directory + folder, probe);
-      }
+      if (!setup_.slices.empty()) make_writable_directory(setup_.output.directory + "/slices", probe);
     });
   } catch (const SystemError& error) {
     throw InputError(
         fmt::format("{}: {}; allowed: a directory that can be made and written to", setup.output.where, error.what()));
+  }
+  if (setup.output.only.empty()) vtu_ = std::make_unique<VtuWriter>(draw(mesh), setup.output.float64);
+  for (const SliceSetup& slice : setup.slices) {
+    const DrawnCells drawn = draw_cut(mesh, slice.point, slice.normal);
+    if (mpi.sum(static_cast<std::int64_t>(drawn.cell.size())) == 0)
+      throw InputError(fmt::format("{}: the plane of [[slice]] '{}' cuts no cell; allowed: one through the mesh",
+                                   slice.where, slice.name));
+    slices_.push_back({{slice.name, "slices"}, drawn.cell, std::make_unique<VtuWriter>(drawn, setup.output.float64)});
   }
   for (const LineSetup& line : setup.lines) {
     const std::string what = fmt::format("{}: [[line]] '{}'", setup.case_file, line.name);
@@ -79,31 +87,55 @@ Output::Output(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
 }
 
 void Output::write(const Snapshot& snapshot) {
-  const std::string number = fmt::format("{:04}", outputs_.size());
+  const std::string number = fmt::format("{:04}", fields_.files.size());
+  if (vtu_) {
+    write_series(fields_, *vtu_, snapshot);
+  } else {
+    std::vector<std::int32_t> cells;
+    for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell)
+      if (std::ranges::any_of(setup_.output.only, [&](int k) {
+            const auto& alpha = snapshot.phases[k].alpha;
+            return (alpha.empty() ? 1 : alpha[cell]) > setup_.output.only_above;
+          }))
+        cells.push_back(cell);
+    write_series(fields_, VtuWriter(draw(mesh_, cells), setup_.output.float64), extract(snapshot, cells));
+  }
+  for (Table& line : lines_) write_line(line, snapshot, number);
+}
+
+void Output::write_slice(std::size_t slice, const Snapshot& snapshot) {
+  Slice& it = slices_[slice];
+  write_series(it.series, *it.vtu, extract(snapshot, it.cells));
+}
+
+void Output::write_series(Series& series, const VtuWriter& vtu, const Snapshot& snapshot) {
+  const std::string number = fmt::format("{:04}", series.files.size());
   const Mixture mixture = mix(snapshot, setup_.phases);
   const auto fields = output_fields(setup_.output.fields, snapshot, mixture);
-  const auto piece = [&](int rank) { return fmt::format("{}_{}_{}.vtu", stem_, number, rank); };
-  together(
-      [&] { write_atomically(path("fields/" + piece(mpi_.rank())), vtu_.vtu(fields, snapshot.time, snapshot.step)); });
-  outputs_.emplace_back(snapshot.time, fmt::format("fields/{}_{}.pvtu", stem_, number));
+  const auto piece = [&](int rank) { return fmt::format("{}_{}_{}.vtu", series.name, number, rank); };
+  together([&] {
+    write_atomically(path(series.folder + "/" + piece(mpi_.rank())), vtu.vtu(fields, snapshot.time, snapshot.step));
+  });
+  series.files.emplace_back(snapshot.time, fmt::format("{}/{}_{}.pvtu", series.folder, series.name, number));
   together([&] {
     if (!mpi_.root()) return;
     std::vector<std::string> pieces;
     for (int rank = 0; rank < mpi_.size(); ++rank) pieces.push_back(piece(rank));
-    write_atomically(path(outputs_.back().second), pvtu(fields, pieces, setup_.output.float64));
-    write_atomically(path(stem_ + ".pvd"), pvd(outputs_));
-    if (outputs_.size() == 1) remove_former_outputs();
+    write_atomically(path(series.files.back().second), pvtu(fields, pieces, setup_.output.float64));
+    write_atomically(path(series.name + ".pvd"), pvd(series.files));
+    if (series.files.size() == 1) remove_former_files(series);
     Units units;
     for (const OutputField& field : fields) {
       for (std::size_t c = 0; c < field.values.size(); ++c) units.emplace_back(field.column(c), field.unit);
     }
     add_units("fields", units);
   });
-  for (Table& line : lines_) write_line(line, snapshot, number);
 }
 
 void Output::write_line(Table& line, const Snapshot& snapshot, const std::string& number) {
   const Samples samples = sample(line, snapshot);
+  if (line.files.empty() && mpi_.root())
+    remove_files(path("lines"), [&](const std::string& name) { return after_number(name, line.name + "_") == ".csv"; });
   line.files.emplace_back(snapshot.time, fmt::format("lines/{}_{}.csv", line.name, number));
   together([&] {
     if (!mpi_.root()) return;
@@ -202,18 +234,15 @@ void Output::add_units(const std::string& where, const Units& units) {
   write_atomically(path("units.csv"), text);
 }
 
-void Output::remove_former_outputs() const {
-  remove_files(path("fields"), [&](const std::string& name) {
-    std::string_view rest = after_number(name, stem_ + "_");
-    if (rest == ".pvtu") return name != stem_ + "_0000.pvtu";
+void Output::remove_former_files(const Series& series) const {
+  remove_files(path(series.folder), [&](const std::string& name) {
+    std::string_view rest = after_number(name, series.name + "_");
+    if (rest == ".pvtu") return name != series.name + "_0000.pvtu";
     if (after_number(rest, "_") != ".vtu") return false;
     const std::string rank(rest.substr(1, rest.find('.') - 1));
-    const bool just_written = name.starts_with(stem_ + "_0000_") && std::stoi(rank) < mpi_.size();
+    const bool just_written = name.starts_with(series.name + "_0000_") && std::stoi(rank) < mpi_.size();
     return !just_written;
   });
-  for (const Table& line : lines_) {
-    remove_files(path("lines"), [&](const std::string& name) { return after_number(name, line.name + "_") == ".csv"; });
-  }
 }
 
 void Output::together(const std::function<void()>& action) const {

@@ -23,6 +23,7 @@ namespace cobasis {
 
 /// In the output directory, with the case file's stem:
 ///   stem.pvd            ParaView's entry: times and fields/stem_0000.pvtu, each with fields/stem_0000_<rank>.vtu
+///   <slice>.pvd         the same of a slice: slices/<slice>_0000.pvtu
 ///   <line>.csv          the latest samples; <line>.series: all of them, lines/<line>_0000.csv
 ///   <probe>.csv         a row per history row: step, time, fields
 ///   history.csv         step, time, dt, totals, integrals
@@ -30,13 +31,14 @@ namespace cobasis {
 /// All members are collective. Failures to write are SystemError on all ranks together, with path and reason.
 class Output {
  public:
-  /// Creates the directory. Throws InputError, on all ranks together, if nothing can be written there, two tables would
-  /// share a name, or a point lies outside the mesh. Files of others stay as they are; those of an earlier run of the
-  /// case are replaced.
+  /// The mesh must outlive it. Creates the directory. Throws InputError, on all ranks together, if nothing can be
+  /// written there, two tables would share a name, a point lies outside the mesh or a plane beside it. Files of others
+  /// stay as they are; those of an earlier run of the case are replaced.
   Output(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mpi& mpi);
 
   /// Fields and lines.
   void write(const Snapshot& snapshot);
+  void write_slice(std::size_t slice, const Snapshot& snapshot);
   /// A row of history.csv and of each probe. The snapshot needs alpha if needs_alpha_for_history(), all fields if
   /// needs_fields_for_history(). `totals`: the same on all ranks, the same names each time.
   void history(const Snapshot& snapshot, const std::vector<Column>& totals);
@@ -62,26 +64,41 @@ class Output {
     std::vector<double> rows;  ///< on rank 0, points in order
   };
 
+  /// Files for ParaView: name.pvd, folder/name_0000.pvtu, folder/name_0000_<rank>.vtu.
+  struct Series {
+    std::string name, folder;
+    std::vector<std::pair<double, std::string>> files = {};  ///< time, path of the .pvtu
+  };
+  struct Slice {
+    Series series;
+    std::vector<std::int32_t> cells;
+    std::unique_ptr<VtuWriter> vtu;
+  };
+
   std::string path(const std::string& name) const { return setup_.output.directory + "/" + name; }
   Samples sample(const Table& table, const Snapshot& snapshot) const;
+  /// The snapshot holds the cells that the writer draws, in order.
+  void write_series(Series& series, const VtuWriter& vtu, const Snapshot& snapshot);
   void write_line(Table& line, const Snapshot& snapshot, const std::string& number);
   /// Once per place, of: fields (VTU files, lines, probes), history.
   void add_units(const std::string& where, const Units& units);
-  void remove_former_outputs() const;
+  /// All but the first output just written.
+  void remove_former_files(const Series& series) const;
   /// Runs the action on every rank; what fails on one becomes SystemError on all.
   void together(const std::function<void()>& action) const;
 
   Setup setup_;
+  const Mesh& mesh_;
   const Mpi& mpi_;
-  std::string stem_;
-  VtuWriter vtu_;
+  Series fields_;
+  std::unique_ptr<VtuWriter> vtu_;  ///< of all cells
+  std::vector<Slice> slices_;
   Integrals integrals_;
   std::vector<double> latest_integrals_;
   std::vector<Column> latest_;
   std::vector<Table> lines_, probes_;
-  std::vector<std::pair<double, std::string>> outputs_;  ///< time, path of the .pvtu
-  std::optional<RowFile> history_;                       ///< rank 0
-  std::map<std::string, std::string> units_;             ///< rows of units.csv by place
+  std::optional<RowFile> history_;            ///< rank 0
+  std::map<std::string, std::string> units_;  ///< rows of units.csv by place
 };
 
 }  // namespace cobasis

@@ -90,6 +90,13 @@ std::string describe(const Scene& scene, const Solver& solver) {
   return text;
 }
 
+/// Bytes of state that a cell carries.
+std::size_t state_bytes(const Solver& solver) {
+  std::size_t numbers = 0;
+  for (const Phase& phase : solver.fields().phases) numbers += phase.numbers_per_cell();
+  return numbers * sizeof(double);
+}
+
 /// Memory that this process holds at present [bytes].
 std::int64_t resident_memory() {
   std::int64_t pages = 0, resident = 0;
@@ -135,8 +142,18 @@ RunResult run_scene(const Scene& scene, const Mpi& mpi, Speech speech) {
   }
 
   RunResult result;
-  const double interval = setup.output.every.value_or(setup.end_time / setup.output.count.value_or(20));
-  Schedule outputs(interval, setup.end_time), rows(setup.end_time / 1000, setup.end_time);
+  const auto schedule_of = [&](const auto& of) {
+    return Schedule(of.every.value_or(setup.end_time / of.count.value_or(20)), setup.end_time);
+  };
+  Schedule outputs = schedule_of(setup.output);
+  std::vector<Schedule> slices;
+  for (const SliceSetup& slice : setup.slices) slices.push_back(schedule_of(slice));
+  const auto next_output = [&] {
+    double next = outputs.next();
+    for (const Schedule& slice : slices) next = std::min(next, slice.next());
+    return next;
+  };
+  Schedule rows(setup.end_time / 1000, setup.end_time);
   Progress progress(std::cout, mpi.root() ? progress_style(speech == Speech::last_line || speech == Speech::nothing)
                                           : ProgressStyle::silent);
   const auto cost = [&] {
@@ -146,7 +163,15 @@ RunResult run_scene(const Scene& scene, const Mpi& mpi, Speech speech) {
   };
   const auto write_due = [&](bool last) {
     const double time = solver.time();
-    if (outputs.due(time) || last) output.write(solver.snapshot());
+    const bool fields = outputs.due(time) || last;
+    std::vector<std::size_t> cut;
+    for (std::size_t i = 0; i < slices.size(); ++i)
+      if (slices[i].due(time) || last) cut.push_back(i);
+    if (fields || !cut.empty()) {
+      const Snapshot snapshot = solver.snapshot();
+      if (fields) output.write(snapshot);
+      for (const std::size_t i : cut) output.write_slice(i, snapshot);
+    }
     const bool row = setup.history_every ? solver.step() % *setup.history_every == 0 : rows.due(time);
     if (!row && !last) return;
     const Timer writing;
@@ -162,7 +187,7 @@ RunResult run_scene(const Scene& scene, const Mpi& mpi, Speech speech) {
     return solver.time() >= setup.end_time || (setup.max_steps && solver.step() >= *setup.max_steps);
   };
   while (!done()) {
-    solver.advance(outputs.next());
+    solver.advance(next_output());
     write_due(done());
     progress.update({solver.time(), setup.end_time, solver.step(), timer.seconds(), cost()});
   }
@@ -212,25 +237,38 @@ void run_case(const CommandLine& command, const Mpi& mpi) {
 
 void check_case(const CommandLine& command, const Mpi& mpi) {
   const Scene scene = open_scene(read_case(command.file, command.overrides), command.trust_geo, 0, mpi);
-  Solver solver(scene.setup, scene.geometry, scene.mesh, mpi);
-  solver.advance(scene.setup.end_time);  // the first step also touches memory for the first time
+  const Setup& setup = scene.setup;
+  Solver solver(setup, scene.geometry, scene.mesh, mpi);
+  const auto done = [&] { return solver.time() >= setup.end_time || solver.step() == setup.max_steps; };
+  const double dt = solver.advance(setup.end_time);  // it also touches memory for the first time: not measured
+  constexpr std::int64_t least = 5;
+  constexpr double patience = 1;  // [s]
   const double warm_up = solver.clock().total;
-  double dt = 0;
-  constexpr int steps = 5;
-  for (int i = 0; i < steps && solver.time() < scene.setup.end_time; ++i) dt = solver.advance(scene.setup.end_time);
-  const double per_step = mpi.max(solver.clock().total - warm_up) / steps;
+  while (!done() && (solver.step() <= least || mpi.max(solver.clock().total - warm_up) < patience))
+    solver.advance(setup.end_time);
+  const std::int64_t measured = solver.step() - 1;
+  const double seconds = mpi.max(measured > 0 ? solver.clock().total - warm_up : warm_up),
+               per_step = seconds / static_cast<double>(std::max<std::int64_t>(measured, 1));
   const std::int64_t memory = mpi.sum(resident_memory());
   if (!mpi.root()) return;
-  const double expected_steps = scene.setup.max_steps
-                                    ? std::min(static_cast<double>(*scene.setup.max_steps), scene.setup.end_time / dt)
-                                    : scene.setup.end_time / dt;
+  const double all = std::ceil(setup.end_time / dt * (1 - 1e-12)),
+               steps = setup.max_steps ? std::min(static_cast<double>(*setup.max_steps), all) : all;
+  const auto bytes = static_cast<double>(state_bytes(solver)), n_cells = static_cast<double>(scene.mesh.n_global);
+  const std::string ranks = fmt::format("{} rank{}", mpi.size(), mpi.size() == 1 ? "" : "s");
   std::cout << describe(scene, solver)
-            << fmt::format("memory: {:.3g} MB on {} rank{}\n", 1e-6 * static_cast<double>(memory), mpi.size(),
-                           mpi.size() == 1 ? "" : "s")
-            << fmt::format("step: {:.3g} s at first, about {:.0f} steps to {:g} s\n", dt, expected_steps,
-                           scene.setup.end_time)
-            << fmt::format("cost: {:.3g} s per step at first, about {} in all without output\n", per_step,
-                           duration(per_step * expected_steps));
+            << fmt::format("state: {:g} bytes per cell, {:.3g} MB in all\n", bytes, 1e-6 * bytes * n_cells)
+            << fmt::format("memory: {:.3g} MB on {}, with buffers, mesh and libraries\n",
+                           1e-6 * static_cast<double>(memory), ranks)
+            << fmt::format("step: {:.3g} s at t = 0; {} {:.0f} steps to {:g} s\n", dt,
+                           solver.time() >= setup.end_time ? "in all" : "if it stays so,",
+                           solver.time() >= setup.end_time ? static_cast<double>(solver.step()) : steps, setup.end_time)
+            << fmt::format(
+                   "time: about {} without output; from {:.3g} s per step, measured over the {} on {} just now\n",
+                   duration(per_step * steps), per_step,
+                   measured > 1   ? fmt::format("first {} steps", measured + 1)
+                   : measured > 0 ? "second step"
+                                  : "only step",
+                   ranks);
 }
 
 }  // namespace cobasis

@@ -101,25 +101,18 @@ struct VtuWriter::Grid {
   bool float64 = false;
 };
 
-VtuWriter::VtuWriter(const Mesh& mesh, bool float64) : grid_(std::make_unique<Grid>()) {
+VtuWriter::VtuWriter(const DrawnCells& drawn, bool float64) : grid_(std::make_unique<Grid>()) {
   grid_->float64 = float64;
   vtkNew<vtkPoints> points;
   if (float64) points->SetDataTypeToDouble();
-  std::vector<vtkIdType> point_of_node(mesh.nodes.size(), -1);  // the halo's own nodes are not written
+  for (const Point& x : drawn.points) points->InsertNextPoint(x.x, x.y, x.z);
   vtkUnstructuredGrid& grid = *grid_->vtk;
-  grid.Allocate(mesh.n_owned);
-  std::vector<vtkIdType> corners;
-  for (std::int32_t i = 0; i < mesh.n_owned; ++i) {
-    corners.clear();
-    for (std::int32_t j = mesh.cell_node_begin[i]; j < mesh.cell_node_begin[i + 1]; ++j) {
-      const std::int32_t node = mesh.cell_nodes[j];
-      if (point_of_node[node] < 0) {
-        const Point& x = mesh.nodes[node];
-        point_of_node[node] = points->InsertNextPoint(x.x, x.y, x.z);
-      }
-      corners.push_back(point_of_node[node]);
-    }
-    grid.InsertNextCell(vtk_type(mesh.cell_type[i]), static_cast<vtkIdType>(corners.size()), corners.data());
+  grid.Allocate(static_cast<vtkIdType>(drawn.cell.size()));
+  for (std::size_t i = 0; i < drawn.cell.size(); ++i) {
+    const std::vector<vtkIdType> corners(drawn.corners.begin() + drawn.begin[i],
+                                         drawn.corners.begin() + drawn.begin[i + 1]);
+    const int type = !drawn.type.empty() ? vtk_type(drawn.type[i]) : corners.size() == 2 ? VTK_LINE : VTK_POLYGON;
+    grid.InsertNextCell(type, static_cast<vtkIdType>(corners.size()), corners.data());
   }
   grid.SetPoints(points);
 }

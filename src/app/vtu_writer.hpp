@@ -6,18 +6,19 @@
 #include <utility>
 #include <vector>
 
+#include "app/drawn_cells.hpp"
 #include "app/output_fields.hpp"
-#include "mesh/mesh.hpp"
 
 namespace cobasis {
 
-/// The owned cells of a rank as VTK sees them.
+/// Cells of a rank as VTK sees them.
 class VtuWriter {
  public:
-  VtuWriter(const Mesh& mesh, bool float64);
+  VtuWriter(const DrawnCells& drawn, bool float64);
   ~VtuWriter();
 
-  /// The bytes of a .vtu: appended raw, LZ4. Time [s] and step travel as field data, units as UNITS_LABEL.
+  /// Values of the fields are in the order of the drawn cells. The bytes of a .vtu: appended raw, LZ4. Time [s] and
+  /// step travel as field data, units as UNITS_LABEL.
   std::string vtu(const std::vector<OutputField>& fields, double time, std::int64_t step) const;
 
  private:

@@ -24,6 +24,11 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
+bool begins(std::string_view name, std::string_view word) {
+  return !word.empty() && word.size() <= name.size() &&
+         std::equal(word.begin(), word.end(), name.begin(), [](char a, char b) { return lower(a) == lower(b); });
+}
+
 }  // namespace
 
 std::optional<std::string> nearest_name(std::string_view word, std::span<const std::string> candidates) {
@@ -32,7 +37,7 @@ std::optional<std::string> nearest_name(std::string_view word, std::span<const s
   std::optional<std::string> nearest;
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const std::string& candidate : candidates) {
-    const std::size_t d = distance(word, std::string_view(candidate).substr(0, longest));
+    const std::size_t d = begins(candidate, word) ? 0 : distance(word, std::string_view(candidate).substr(0, longest));
     if (d < least && d < std::max(word.size(), candidate.size())) {
       least = d;
       nearest = candidate;

@@ -8,7 +8,8 @@
 
 namespace cobasis {
 
-/// The candidate with the fewest letters to insert, delete, change or swap; none if every letter would have to change.
+/// The first candidate that begins with the word, or else the one with the fewest letters to insert, delete, change or
+/// swap; none if every letter would have to change.
 std::optional<std::string> nearest_name(std::string_view word, std::span<const std::string> candidates);
 
 /// "allowed: a, b, c; did you mean "b"?"

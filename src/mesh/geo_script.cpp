@@ -1,15 +1,14 @@
 #include "mesh/geo_script.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <numeric>
 #include <string_view>
 
 #include "math/errors.hpp"
+#include "math/suggestion.hpp"
 #include "mesh/msh_check.hpp"
 
 namespace cobasis {
@@ -146,21 +145,6 @@ std::vector<std::string> constants_of(const std::vector<Token>& tokens) {
   return names;
 }
 
-std::size_t edit_distance(string_view a, string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substitute = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
-    }
-  }
-  return row.back();
-}
-
 }  // namespace
 
 GeoScript read_geo_script(const std::string& file, bool trust) {
@@ -178,12 +162,8 @@ void check_parameters(const std::string& file, const GeoScript& script,
     if (std::find(script.constants.begin(), script.constants.end(), name) != script.constants.end()) continue;
     if (script.constants.empty())
       throw InputError(fmt::format("{}: mesh parameter '{}', but the script has no DefineConstant", file, name));
-    std::vector<std::string> near = script.constants;
-    std::stable_sort(near.begin(), near.end(), [&](const std::string& a, const std::string& b) {
-      return edit_distance(a, name) < edit_distance(b, name);
-    });
-    throw InputError(fmt::format("{}: unknown mesh parameter '{}'; the script's DefineConstant has: {}", file, name,
-                                 fmt::join(near, ", ")));
+    throw InputError(fmt::format("{}: unknown mesh parameter '{}' of the script's DefineConstant; {}", file, name,
+                                 allowed_names(name, script.constants)));
   }
 }
 

@@ -1,7 +1,6 @@
 #include "mesh/periodic.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <set>
 
 #include "math/errors.hpp"
+#include "math/suggestion.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/topology.hpp"
 
@@ -64,8 +64,8 @@ bool matches(const Side& a, const Side& b, const Point& shift) {
 std::int32_t group_by_name(const RawMesh& raw, const std::string& name) {
   const auto at = std::find(raw.group_names.begin(), raw.group_names.end(), name);
   if (at == raw.group_names.end())
-    throw InputError(fmt::format("periodic boundary '{}' is no physical group of the mesh; it has: {}", name,
-                                 fmt::join(raw.group_names, ", ")));
+    throw InputError(fmt::format("periodic boundary '{}' is no physical group of the mesh; {}", name,
+                                 allowed_names(name, raw.group_names)));
   return static_cast<std::int32_t>(at - raw.group_names.begin());
 }
 

@@ -1,11 +1,11 @@
 #include "solver/initial_condition.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "math/errors.hpp"
+#include "math/suggestion.hpp"
 #include "solver/cut_cell.hpp"
 
 namespace cobasis {
@@ -16,10 +16,9 @@ void check_groups(const std::vector<RegionSetup>& regions, const Mesh& mesh) {
   for (const RegionSetup& region : regions) {
     const auto* group = std::get_if<PhysicalGroup>(&region.shape);
     if (!group || std::find(names.begin(), names.end(), group->name) != names.end()) continue;
-    const std::string allowed =
-        names.empty() ? "it names none of its cells" : fmt::format("{}", fmt::join(names, ", "));
-    throw InputError(fmt::format("{}: the mesh has no cells in a physical group '{}'; allowed: {}", region.where,
-                                 group->name, allowed));
+    throw InputError(
+        fmt::format("{}: the mesh has no cells in a physical group '{}'; {}", region.where, group->name,
+                    names.empty() ? "allowed: none, it names none of its cells" : allowed_names(group->name, names)));
   }
 }
 

@@ -45,8 +45,8 @@ struct PhaseSetup {
 
 /// Initial or inflow state of one phase.
 struct PhaseState {
-  std::optional<double> density;                                ///< [kg/m^3]; default: of the cobasis, or the phase's
-  double pressure = 0;                                          ///< p, not -sigma [Pa]
+  std::optional<Expression> density;                            ///< [kg/m^3]; default: of the cobasis, or the phase's
+  Expression pressure;                                          ///< p, not -sigma [Pa]
   std::array<Expression, 3> velocity;                           ///< [m/s]
   std::optional<std::array<std::array<double, 3>, 3>> cobasis;  ///< rows: x, y, z components of (e^1, e^2, e^3)
 };
@@ -121,6 +121,8 @@ struct OutputSetup {
   std::optional<int> count;
   std::vector<std::string> fields;  ///< of: alpha density velocity pressure stress cobasis energy (mixture follows)
   bool float64 = false;
+  std::vector<int> only;  ///< phases: only cells with more than `only_above` of one of them; empty: all cells
+  double only_above = 0;
 };
 
 struct LineSetup {
@@ -131,6 +133,14 @@ struct LineSetup {
 struct ProbeSetup {
   std::string name;
   Point at;
+};
+/// Fields where a plane cuts the mesh.
+struct SliceSetup {
+  std::string name;
+  Point point, normal;
+  std::optional<double> every;  ///< [s]; exactly one of every, count is set
+  std::optional<int> count;
+  std::string where;  ///< file:line
 };
 enum class Axis { x, y, z, radial };
 struct Extent {
@@ -187,6 +197,7 @@ struct Setup {
   std::optional<std::int64_t> history_every;  ///< steps between rows; default one row per 0.1 % of the run
   std::vector<LineSetup> lines;
   std::vector<ProbeSetup> probes;
+  std::vector<SliceSetup> slices;
   std::vector<IntegralSetup> integrals;
 
   Contact contact(int l, int m) const {

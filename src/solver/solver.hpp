@@ -13,6 +13,7 @@
 #include "mesh/mpi.hpp"
 #include "mesh/neighbour_exchange.hpp"
 #include "solver/caution.hpp"
+#include "solver/initial_condition.hpp"
 #include "solver/interfaces.hpp"
 #include "solver/kernels.hpp"
 #include "solver/reconstruction.hpp"
@@ -90,7 +91,8 @@ class Solver {
  private:
   void allocate();
   void set_initial_state();
-  void set_reference_states();
+  std::optional<Point> first_shown(const InitialState& initial, int k, std::size_t region) const;
+  void set_reference_states(const InitialState& initial);
   void set_state(int k, std::int32_t cell, double alpha, const PhaseState& state, const Point& x);
   void take_step(double until);
   void save();

@@ -20,10 +20,27 @@ double determinant(const Cobasis9& e) {
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
+/// What formulas give at a point must be what the phase can hold; numbers the case reader has looked at.
+void check_formulas(const PhaseSetup& phase, const PhaseState& state, const Point& x, const std::string& where) {
+  const auto refuse = [&](const char* what, double value, const std::string& allowed) {
+    throw InputError(fmt::format("{}: {} = {:g} of phase \"{}\" at ({:g}, {:g}, {:g}); allowed: {}", where, what, value,
+                                 phase.name, x.x, x.y, x.z, allowed));
+  };
+  if (!state.pressure.is_constant()) {
+    const double p = state.pressure(x),
+                 lowest = std::visit([](const auto&e) { return e.lowest_pressure(); }, phase.eos);
+    if (!(p > lowest && std::isfinite(p))) refuse("pressure", p, fmt::format("{:g} < pressure [Pa]", lowest));
+  }
+  if (state.density && !state.density->is_constant()) {
+    const double rho = (*state.density)(x), densest = std::visit([](const auto&e) { return e.densest(); }, phase.eos);
+    if (!(0 < rho && rho < densest)) refuse("density", rho, fmt::format("0 < density < {:g} [kg/m^3]", densest));
+  }
+}
+
 /// The conserved state per volume of the phase: rho, rho u, rho E, e.
 template <class G>
 std::vector<double> conserved_state(const PhaseSetup& phase, const PhaseState& state, const Point& x) {
-  double rho = state.density.value_or(phase.density.value_or(phase.is_solid() ? phase.elastic->rho0 : 0));
+  double rho = state.density ? (*state.density)(x) : phase.density.value_or(phase.is_solid() ? phase.elastic->rho0 : 0);
   Cobasis9 rows{};  // x, y, z components of (e^1, e^2, e^3)
   if (phase.is_solid()) {
     if (state.cobasis) {
@@ -36,7 +53,8 @@ std::vector<double> conserved_state(const PhaseSetup& phase, const PhaseState& s
   Vector<G, double> u;
   u.x = state.velocity[0](x), u.y = state.velocity[1](x);
   if constexpr (G::dimension == 3) u.z = state.velocity[2](x);
-  double E = 0.5 * dot(u, u) + std::visit([&](const auto& eos) { return eos.energy(rho, state.pressure); }, phase.eos);
+  double E =
+      0.5 * dot(u, u) + std::visit([&](const auto& eos) { return eos.energy(rho, state.pressure(x)); }, phase.eos);
   std::vector<double> q{rho, rho * u.x, rho * u.y};
   if constexpr (G::dimension == 3) q.push_back(rho * u.z);
   if (!phase.is_solid()) {
@@ -226,36 +244,50 @@ void Solver::set_state(int k, std::int32_t cell, double alpha, const PhaseState&
 
 void Solver::set_initial_state() {
   const int n = fields_.n_phases();
+  InitialState initial;
+  std::vector<CellList> ghosts(n);
+  for (CellList& list : ghosts) list = CellList(mesh_.n_ghosts);
+  const auto set_checked = [&](int k, std::int32_t cell, double alpha, const PhaseState& state, const Point& x,
+                               const std::string& where) {
+    if (alpha > 0 && !fields_.phases[k].is_void) check_formulas(setup_.phases[k], state, x, where);
+    set_state(k, cell, alpha, state, x);
+  };
   std::string mistake;
   try {
-    const InitialState initial = paint(setup_.regions, n, mesh_);
+    initial = paint(setup_.regions, n, mesh_);
     for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell)
       for (int k = 0; k < n; ++k)
         if (initial.region[k][cell] >= 0) {
           const Point& x = mesh_.centroid[cell];
-          set_state(k, cell, initial.alpha[k][cell],
-                    options_.initial_state ? options_.initial_state(k, x)
-                                           : setup_.regions[initial.region[k][cell]].filling.states[k],
-                    x);
+          const RegionSetup& region = setup_.regions[initial.region[k][cell]];
+          set_checked(k, cell, initial.alpha[k][cell],
+                      options_.initial_state ? options_.initial_state(k, x) : region.filling.states[k], x,
+                      region.where);
         }
+    for (std::size_t i = 0; i < boundaries_.size(); ++i) {
+      const auto* inflow = std::get_if<Inflow>(&boundaries_[i]);
+      if (!inflow) continue;
+      const BoundaryGroup& group = mesh_.boundary_groups[i];
+      for (std::int32_t face = group.first; face < group.last; ++face)
+        for (int k = 0; k < n; ++k) {
+          const double alpha = inflow->filling.alpha[k];
+          set_checked(k, mesh_.ghost_of(face), alpha, inflow->filling.states[k], mesh_.face_centroid[face],
+                      fmt::format("{}: boundary '{}'", setup_.case_file, group.name));
+          if (alpha > 0 && !fields_.phases[k].is_void) ghosts[k].push(mesh_.ghost_of(face));
+        }
+    }
   } catch (const InputError& error) {
     mistake = error.what();
   }
-  if (mpi_.any(!mistake.empty()))
-    throw InputError(mistake.empty() ? "another rank found the initial state wrong" : mistake);
-
-  std::vector<CellList> ghosts(n);
-  for (CellList& list : ghosts) list = CellList(mesh_.n_ghosts);
-  for (std::size_t i = 0; i < boundaries_.size(); ++i) {
-    const auto* inflow = std::get_if<Inflow>(&boundaries_[i]);
-    if (!inflow) continue;
-    for (std::int32_t face = mesh_.boundary_groups[i].first; face < mesh_.boundary_groups[i].last; ++face)
-      for (int k = 0; k < n; ++k) {
-        const double alpha = inflow->filling.alpha[k];
-        set_state(k, mesh_.ghost_of(face), alpha, inflow->filling.states[k], mesh_.face_centroid[face]);
-        if (alpha > 0 && !fields_.phases[k].is_void) ghosts[k].push(mesh_.ghost_of(face));
-      }
+  if (const auto first = mpi_.min(mistake.empty() ? mpi_.size() : mpi_.rank()); first < mpi_.size()) {
+    std::vector<std::int64_t> letters;
+    if (mpi_.rank() == static_cast<int>(first)) letters.assign(mistake.begin(), mistake.end());
+    letters = mpi_.gather(std::span<const std::int64_t>(letters));
+    mistake.assign(letters.begin(), letters.end());
+    mpi_.broadcast(mistake);
+    throw InputError(mistake);
   }
+
   if (fields_.multiphase()) {
     for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) fields_.complete(cell);
     for (std::size_t i = 0; i < boundaries_.size(); ++i)
@@ -285,17 +317,33 @@ void Solver::set_initial_state() {
       if (cell < mesh_.n_owned) note_unphysical(k, cell);
   }
   if (mpi_.any(!unphysical_.empty())) stop_unphysical();
-  if (fields_.multiphase()) set_reference_states();
+  if (fields_.multiphase()) set_reference_states(initial);
 }
 
-/// The padding behind all cells holds for each phase the first state in which the case speaks of it.
-void Solver::set_reference_states() {
+/// The centroid of the first of all ranks' cells, by global id, that shows the region's state of a phase. Collective.
+std::optional<Point> Solver::first_shown(const InitialState& initial, int k, std::size_t region) const {
+  std::int32_t first = -1;
+  for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell)
+    if (initial.region[k][cell] == static_cast<std::int32_t>(region) &&
+        (first < 0 || mesh_.global_id[cell] < mesh_.global_id[first]))
+      first = cell;
+  const double own = first < 0 ? infinity : static_cast<double>(mesh_.global_id[first]), least = mpi_.min(own);
+  if (least == infinity) return std::nullopt;
+  const Point x = own == least ? mesh_.centroid[first] : Point{infinity, infinity, infinity};
+  return Point{mpi_.min(x.x), mpi_.min(x.y), mpi_.min(x.z)};
+}
+
+/// The padding behind all cells holds for each phase the state of the first region that shows it.
+void Solver::set_reference_states(const InitialState& initial) {
   for (int k = 0; k < fields_.n_phases(); ++k) {
     Phase& phase = fields_.phases[k];
-    const auto region =
-        std::ranges::find_if(setup_.regions, [&](const RegionSetup& r) { return r.filling.alpha[k] > 0; });
-    if (phase.is_void || region == setup_.regions.end()) continue;
-    set_state(k, fields_.n_all, 1, region->filling.states[k], Point{0, 0, 0});
+    if (phase.is_void) continue;
+    std::optional<Point> x;
+    std::size_t region = 0;
+    for (; region < setup_.regions.size(); ++region)
+      if (setup_.regions[region].filling.alpha[k] > 0 && (x = first_shown(initial, k, region))) break;
+    if (!x) continue;
+    set_state(k, fields_.n_all, 1, setup_.regions[region].filling.states[k], *x);
     CellList cell(pack_width);
     cell.push(fields_.n_all);
     cell.fill(pack_width);

@@ -1,7 +1,16 @@
+#include <vtkCell.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPUnstructuredGridReader.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
+#include <set>
 
 #include "../unit/app/output_scene.hpp"
 #include "app/atomic_file.hpp"
@@ -169,6 +178,63 @@ TEST_CASE("every rank writes its piece and the collection names them all") {
     CHECK_THAT(joined, Catch::Contains("<Piece Source=\"" + piece + "\"/>"));
     CHECK(std::filesystem::exists(scratch.path / "fields" / piece));
   }
+}
+
+/// What ParaView shows of an output, cell by cell: corners, and all values.
+std::multiset<std::vector<double>> shown(const std::filesystem::path& file) {
+  vtkNew<vtkXMLPUnstructuredGridReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  vtkUnstructuredGrid* grid = reader->GetOutput();
+  std::multiset<std::vector<double>> cells;
+  for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i) {
+    vtkPoints* corners = grid->GetCell(i)->GetPoints();
+    std::vector<double> values{static_cast<double>(grid->GetCellType(i))};
+    for (vtkIdType j = 0; j < corners->GetNumberOfPoints(); ++j)
+      for (int c = 0; c < 3; ++c) values.push_back(corners->GetPoint(j)[c]);
+    for (int a = 0; a < grid->GetCellData()->GetNumberOfArrays(); ++a) {
+      vtkDataArray* array = grid->GetCellData()->GetArray(a);
+      for (int c = 0; c < array->GetNumberOfComponents(); ++c) values.push_back(array->GetComponent(i, c));
+    }
+    cells.insert(values);
+  }
+  return cells;
+}
+
+TEST_CASE("some cells and slices hold the same however the cells are distributed, ranks without any included") {
+  const SharedScratch scratch;
+  const auto outputs = [&](const std::string& name, const Partition& partition) {
+    const std::filesystem::path directory = scratch.path / name;
+    const Mesh mesh = mesh_of(directory, partition);
+    Setup setup = wavy_setup(directory);
+    setup.output.only = {0};
+    setup.output.only_above = 0.5;
+    setup.slices = {{"middle", {0, 0.5, 0}, {0.3, 1, 0}, {}, {}, "case:1"}};
+    Output output(setup, Geometry::plane, mesh, world());
+    const Snapshot snapshot = wavy(mesh);
+    output.write(snapshot);
+    output.write_slice(0, snapshot);
+    output.write_slice(0, snapshot);
+    world().barrier();
+    return std::pair(shown(directory / "fields/impact_0000.pvtu"), shown(directory / "slices/middle_0001.pvtu"));
+  };
+  const auto whole = outputs("whole", [](std::int64_t, int) { return 0; });
+  REQUIRE(whole.first.size() > 10);
+  REQUIRE(whole.first.size() < 50);
+  CHECK(whole.second.size() == 11);  // 9 columns, and twice the line passes to another row
+  for (const auto& cell : whole.first) CHECK(cell[1 + 4 * 3] > 0.5);  // copper, the first array
+  const Partition mixed = [](std::int64_t cell, int n) { return static_cast<int>(cell * cell % 7 % n); };
+  CHECK(outputs("metis", {}) == whole);
+  CHECK(outputs("mixed", mixed) == whole);
+}
+
+TEST_CASE("a plane beside the mesh is refused by all ranks alike") {
+  const SharedScratch scratch;
+  const Mesh mesh = mesh_of(scratch.path, {});
+  Setup setup = wavy_setup(scratch.path);
+  setup.slices = {{"middle", {0, 2, 0}, {0, 1, 0}, {}, {}, "case:1"}};
+  CHECK_THROWS_WITH(Output(setup, Geometry::plane, mesh, world()),
+                    Catch::Contains("case:1: the plane of [[slice]] 'middle' cuts no cell"));
 }
 
 TEST_CASE("what one rank cannot write is an error on all, with that rank's path") {

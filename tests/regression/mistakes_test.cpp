@@ -153,6 +153,39 @@ TEST_CASE("a cell that no region covers is refused with its place") {
                 {"wrong.toml:15: ", "the cell at (0.6875, ", "is only to 60 % covered", "shape = \"everywhere\""});
 }
 
+TEST_CASE("a formula that gives what a phase cannot hold is refused with the place") {
+  const std::string text = with(right, "pressure = 1e5", "pressure = \"1e5*(0.9 - y)\"");
+  check_refused(text, {"wrong.toml:9: ", "of phase \"air\" at (", "allowed: 0 < pressure [Pa]"});
+  check_refused(with(right, "pressure = 1e5", "density = \"0.5 - y\"\npressure = 1e5"),
+                {"wrong.toml:9: density = -0.0625 of phase \"air\" at (", "allowed: 0 < density"});
+  check_refused(with(right, "left = \"transmissive\"",
+                     "left = { type = \"inflow\", fill = \"air\", pressure = \"1e5*(0.5 - y)\" }"),
+                {"boundary 'left'", "of phase \"air\" at (0, ", "allowed: 0 < pressure [Pa]"});
+}
+
+TEST_CASE("what only one of several ranks finds wrong is told like what all find") {
+  const Folder folder;
+  for (const std::string corner :
+       {"x + y < 0.2", "x - y > 0.8", "y - x > 0.8", "x + y > 1.8"}) {  // not all are rank 0's
+    const std::string formula = "pressure = \"" + corner + " ? -4e10 : 1e5\"";
+    folder.write("wrong.toml", complete(with(with(right, "pressure = 1e5", formula), "pressure = 1e5", formula)));
+    const Outcome one = shell(program_with("check wrong.toml"), folder),
+                  two = shell("mpirun --quiet -n 2 " + program_with("check wrong.toml"), folder);
+    CHECK(one.status == 2);
+    CHECK(two.status == 2);
+    CHECK_THAT(one.err, Contains("pressure = -4e+10 of phase ") && Contains("allowed: "));
+    CHECK_THAT(two.err, Contains(one.err));
+  }
+}
+
+TEST_CASE("groups of the mesh are suggested where a region or a periodic pair misspells them") {
+  check_refused(with(right, "shape = \"everywhere\"", "shape = \"physical_group\"\nname = \"domin\""),
+                {"wrong.toml:9: ", "'domin'", "allowed: domain", "did you mean \"domain\"?"});
+  check_refused(with(right, "left = \"transmissive\"", "left = { type = \"periodic\", with = \"rigt\" }"),
+                {"'rigt'", "allowed: ", "did you mean \"right\"?"});
+  check_refused(with(right, "n = 8", "nn = 8"), {"'nn'", "did you mean \"n\"?"});
+}
+
 TEST_CASE("boundaries and the mesh's groups must match, both ways") {
   check_replaced("left = ", "lefft = ", {"'lefft' is not a physical group of the mesh", "bottom, right, top, left"});
   check_refused(with(right, "\"*\"", "bottom = \"wall\"\ntop"),

@@ -124,3 +124,24 @@ TEST_CASE("the .pvd lists every output with its time, and each leads to files wi
       CHECK_THAT(text, Contains("Name=\"" + field + "\""));
   }
 }
+
+TEST_CASE("slices have their own times, and leave the fields theirs") {
+  const Folder folder;
+  run(folder, "impact",
+      "--set mesh_parameters.n=40 output.count=2 output.only=copper "
+      "'slice=[{ name = \"along\", point = [0, 0.01], normal = [0, 1], count = 5 }]'",
+      "mpirun --quiet -n 2 ");
+  const auto times = [&](const std::string& pvd) {
+    std::vector<double> all;
+    for (const auto& time : all_matches(contents_of(folder.path(pvd)), R"re(timestep="([^"]*)")re"))
+      all.push_back(std::stod(time));
+    return all;
+  };
+  const auto fields = times("out/impact.pvd"), slices = times("out/along.pvd");
+  REQUIRE(fields.size() == 3);
+  REQUIRE(slices.size() == 6);
+  for (int i = 0; i < 3; ++i) CHECK(fields[i] == Approx(i * 25e-6).epsilon(1e-12));
+  for (int i = 0; i < 6; ++i) CHECK(slices[i] == Approx(i * 10e-6).epsilon(1e-12));
+  for (const std::string piece : {"along_0005.pvtu", "along_0005_0.vtu", "along_0005_1.vtu"})
+    CHECK(std::filesystem::exists(folder.path("out/slices/" + piece)));
+}

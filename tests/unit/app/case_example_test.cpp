@@ -133,7 +133,7 @@ TEST_CASE("the example's regions and boundaries are read as they are written") {
   REQUIRE(setup.regions.size() == 2);
   CHECK(std::holds_alternative<Everywhere>(setup.regions[0].shape));
   CHECK(setup.regions[0].filling.alpha == std::vector<double>{0, 1, 0});
-  CHECK(setup.regions[0].filling.states.at(1).pressure == 1e5);
+  CHECK(setup.regions[0].filling.states.at(1).pressure.constant() == 1e5);
   CHECK_FALSE(setup.regions[0].filling.states[1].density);
   CHECK_FALSE(setup.regions[0].filling.states[1].cobasis);
   check_velocity(setup.regions[0].filling.states[1], -200);

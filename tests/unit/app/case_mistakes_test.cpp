@@ -209,6 +209,15 @@ TEST_CASE("states that the materials cannot hold are refused") {
                 {"two different points"});
 }
 
+TEST_CASE("pressure and density are numbers or formulas, and a formula that is a number is checked like one") {
+  CHECK(mistakes_in(with(rest, "pressure = 1e5", "pressure = \"1e5 - 9.81*y\"\ndensity = \"1 + x\"")).empty());
+  check_replaced("pressure = 1e5", "pressure = \"-2*3\"", {"pressure = -6 of phase \"air\"", "0 < pressure"});
+  check_replaced("pressure = 1e5", "pressure = \"1e5 - 9.81*h\"", {"\"1e5 - 9.81*h\"", "a formula in x, y, z"});
+  check_replaced("pressure = 1e5", "pressure = [1e5]", {"allowed: a number, or a formula in x, y, z [Pa]"});
+  check_mistake(with(rest, "pressure = 1e5", "pressure = 1e5\ndensity = \"0*2\""),
+                "density = ", {"density = \"0*2\"", "0 < density"});
+}
+
 TEST_CASE("a void is one, alone in its table, has no state and goes with no traces") {
   const std::string free =
       with(rest, "[phase.copper]\nmaterial = \"copper\"\n", "[phase.free]\nvoid = { pressure = 2e5 }\n");
@@ -258,6 +267,28 @@ TEST_CASE("names that become file names or columns are safe and unique") {
 TEST_CASE("output is by every or by count, not both") {
   check_mistake(rest + "[output]\nevery = 1e-4\ncount = 3\n", "count", {"both \"every\" and \"count\""});
   CHECK(read_text(rest).output.count == 20);
+}
+
+TEST_CASE("only names phases, a slice has a plane, its own name and either every or count") {
+  check_mistake(rest + "[output]\nonly = \"coper\"\n", "only", {"unknown phase \"coper\"", "\"copper\"?"});
+  check_mistake(rest + "[output]\nonly = [\"air\", 3]\n", "only", {"3", "text, or an array of texts"});
+  check_mistake(rest + "[output]\nonly_above = 0.5\n", "only_above", {"without only"});
+  check_mistake(rest + "[output]\nonly = \"air\"\nonly_above = 1\n", "only_above", {"0 <= only_above < 1"});
+  const Setup only = read_text(rest + "[output]\nonly = [\"copper\", \"air\"]\nonly_above = 0.25\n");
+  CHECK(only.output.only == std::vector<int>{1, 0});
+  CHECK(only.output.only_above == 0.25);
+
+  const std::string slice =
+      rest + "[output]\nevery = 2e-5\n[[slice]]\nname = \"a\"\npoint = [0.5, 0]\nnormal = [1, 0]\n";
+  CHECK(read_text(slice).slices[0].every == 2e-5);
+  CHECK_FALSE(read_text(slice).slices[0].count);
+  CHECK(read_text(slice + "count = 3\n").slices[0].count == 3);
+  CHECK_FALSE(read_text(slice + "count = 3\n").slices[0].every);
+  check_mistake(slice + "count = 3\nevery = 1\n", "count = 3", {"both \"every\" and \"count\""});
+  check_mistake(with(slice, "normal = [1, 0]", "normal = [0, 0]"), "normal", {"length 0"});
+  check_mistake(with(slice, "name = \"a\"", "name = \"case\""), "name = \"case\"", {"is taken"});
+  CHECK_THAT(mistakes_in("scene = \"plane\"\n" + with(slice, "[1, 0]", "[0, 0, 1]")),
+             Contains("slice \"a\": normal = [0, 0, 1] in a plane scene"));
 }
 
 TEST_CASE("the mesh is an existing .geo or .msh, and only a .geo takes parameters") {

@@ -24,8 +24,8 @@ TEST_CASE("key by key, --set changes and creates") {
   CHECK(set(rest, "cfl", "0.25").cfl == 0.25);
   CHECK(set(rest, "mesh_parameters.n", "500").mesh_parameters.at("n") == 500);
   CHECK(set(rest, "output.count", "3").output.count == 3);
-  CHECK(set(rest, "region.0.pressure", "2e5").regions[0].filling.states[0].pressure == 2e5);
-  CHECK(set(rest, "region.0.phase.air.density", "3").regions[0].filling.states[0].density == 3.0);
+  CHECK(set(rest, "region.0.pressure", "2e5").regions[0].filling.states[0].pressure.constant() == 2e5);
+  CHECK(set(rest, "region.0.phase.air.density", "3").regions[0].filling.states[0].density->constant() == 3.0);
   CHECK(set(rest, "phase.air.eos.gamma", "1.3").phases[0].name == "air");
   CHECK(std::get<IdealGas>(set(rest, "phase.air.eos.gamma", "1.3").phases[0].eos).gamma == 1.3);
 }
@@ -46,6 +46,15 @@ TEST_CASE("bare words are text, and quotes may hold dots and stars") {
   CHECK(std::holds_alternative<Symmetry>(set(rest, "boundary.\"*\"", "symmetry").boundaries[0].boundary));
   CHECK(set(rest, "boundary.\"a.b\"", "symmetry").boundaries[1].group == "a.b");
   CHECK(set(rest, "boundary.*", "{ type = \"symmetry\" }").boundaries.size() == 1);
+}
+
+TEST_CASE("a phase that --set makes and nothing is filled with is taken for a misspelt one") {
+  CHECK_THAT(
+      mistakes_of_set(rest, "phase.coper.material", "copper"),
+      StartsWith("--set phase.coper.material: phase \"coper\" fills no region; allowed: air, copper; did you mean "
+                 "\"copper\"?"));
+  CHECK_THAT(mistakes_of_set(rest, "phase.coper.elastic.mu", "1e9"), Contains("did you mean \"copper\"?"));
+  CHECK(read_text(rest, {{{"phase.water.material", "water"}, {"region.0.fill", "water"}}, ""}).phases.size() == 3);
 }
 
 TEST_CASE("the later --set wins, and the command line replaces what it excludes in the file") {

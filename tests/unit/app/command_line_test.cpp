@@ -63,6 +63,14 @@ TEST_CASE("check and info take their file") {
   CHECK(info.trust_geo);
 }
 
+TEST_CASE("new takes a name and what the case is to be like") {
+  const CommandLine line = read_command_line({"new", "a"});
+  CHECK(line.command == Command::make);
+  CHECK(line.file == "a");
+  CHECK(line.like == "start");
+  CHECK(read_command_line({"new", "--like", "impact", "a"}).like == "impact");
+}
+
 TEST_CASE("help and version are printed") {
   CHECK_THAT(read_command_line({"--version"}).text, Contains("cobasis " COBASIS_VERSION));
   CHECK(read_command_line({"--version"}).command == Command::print);
@@ -70,6 +78,7 @@ TEST_CASE("help and version are printed") {
     CHECK_THAT(read_command_line(arguments).text, Contains("run") && Contains("check") && Contains("info"));
   }
   CHECK_THAT(read_command_line({"run", "--help"}).text, Contains("--trust-geo") && Contains("--set"));
+  CHECK_THAT(read_command_line({"help", "materials"}).text, Contains("copper: a solid, 8900 kg/m^3"));
   CHECK_THAT(read_command_line({"help", "case"}).text, Contains("end_time") && Contains("[s]"));
 }
 
@@ -80,9 +89,11 @@ TEST_CASE("wrong usage is refused with what is allowed") {
     CHECK_THROWS_AS(read_command_line(arguments), InputError);
     CHECK_THROWS_WITH(read_command_line(arguments), Contains(found) && Contains(allowed));
   };
-  refuses({}, "no command", "run, check, study, info, help");
+  refuses({}, "no command", "run, check, study, info, new, help");
   refuses({"rnu", "a.toml"}, "rnu", "did you mean \"run\"?");
-  refuses({"new", "a"}, "\"new\"", "run, check, study, info, help");
+  refuses({"nwe", "a"}, "nwe", "did you mean \"new\"?");
+  refuses({"new"}, "no name", "cobasis new NAME");
+  refuses({"new", "a", "--lik", "b"}, "--lik", "did you mean \"--like\"?");
   refuses({"run"}, "no file", "cobasis run CASE");
   refuses({"run", "a.toml", "--restart"}, "--restart", "--trust-geo");
   refuses({"run", "a.toml", "--quite"}, "--quite", "did you mean \"--quiet\"?");
@@ -92,6 +103,7 @@ TEST_CASE("wrong usage is refused with what is allowed") {
   refuses({"check", "a.toml", "--output", "d"}, "--output", "--set");
   refuses({"info", "a.msh", "--set", "a=1"}, "--set", "--trust-geo");
   refuses({"help", "cases"}, "cases", "did you mean \"case\"?");
+  refuses({"help", "mat"}, "mat", "did you mean \"materials\"?");
   refuses({"--frobnicate"}, "--frobnicate", "--help");
   refuses({"run", "a.toml", "--set", "=3"}, "=3", "key=value");
 }

@@ -119,7 +119,7 @@ TEST_CASE("every cell type keeps its corners") {
   }
   mesh.n_owned = 4;
 
-  write_atomically((scratch.path / "all.vtu").string(), VtuWriter(mesh, false).vtu({}, 0, 0));
+  write_atomically((scratch.path / "all.vtu").string(), VtuWriter(draw(mesh), false).vtu({}, 0, 0));
   write_atomically((scratch.path / "all.pvtu").string(), pvtu({}, {"all.vtu"}, false));
   const auto reader = open(scratch.path / "all.pvtu");
   vtkUnstructuredGrid* grid = reader->GetOutput();
@@ -150,7 +150,7 @@ TEST_CASE("a rank without cells writes a piece that ParaView joins with the othe
     const Snapshot snapshot = three_phase_state(part.n_owned, 0);
     const Mixture mixture = mix(snapshot, setup.phases);
     const auto fields = output_fields(setup.output.fields, snapshot, mixture);
-    write_atomically((scratch.path / name).string(), VtuWriter(part, false).vtu(fields, 0, 0));
+    write_atomically((scratch.path / name).string(), VtuWriter(draw(part), false).vtu(fields, 0, 0));
     return pvtu(fields, {"0.vtu", "1.vtu", "2.vtu"}, false);
   };
   const std::string whole = write("0.vtu", mesh);

@@ -17,6 +17,11 @@ TEST_CASE("the nearest name is the one with the fewest letters to mend") {
   CHECK_FALSE(nearest_name("b", std::vector<std::string>{"a", "c"}));
 }
 
+TEST_CASE("a word cut short is the name that begins with it") {
+  CHECK(nearest_name("mat", std::vector<std::string>{"case", "materials"}) == "materials");
+  CHECK(nearest_name("WA", std::vector<std::string>{"axis", "wall"}) == "wall");
+}
+
 TEST_CASE("letters that changed places count once") {
   CHECK(nearest_name("every", std::vector<std::string>{"ovary", "evrey"}) == "evrey");
 }
