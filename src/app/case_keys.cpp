@@ -252,7 +252,8 @@ void add_phases(std::vector<KeyTable>& tables) {
          .words = {"stiff"},
          .fallback = "0",
          .meaning = "d alpha_A / dt, per difference of pressures and alpha_A alpha_B; work is done by the "
-                    "pressure at which both come to rest; a solid keeps its shape"}}});
+                    "pressure at which both come to rest; a solid keeps its shape; nothing, where a phase would "
+                    "grow tenfold in a step"}}});
 }
 
 void add_regions(std::vector<KeyTable>& tables) {

@@ -13,7 +13,8 @@ struct RelaxedPair {
 };
 
 /// What the pair does to a cell in the time dt, first with its velocities, then with its pressures. Without effect
-/// where one of both is absent or not admissible.
+/// where one of both is absent; pressures stay as they are where a phase would have to expand tenfold, or one of them
+/// is not admissible.
 ///
 /// Velocities: alpha_l rho_l du_l/dt = K alpha_l alpha_m (u_m - u_l), for m the opposite; solved exactly. The force
 /// works with the common velocity that both approach, (momentum of both) / (mass of both): each phase keeps as heat
