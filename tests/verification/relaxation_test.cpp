@@ -249,3 +249,49 @@ TEST_CASE("water and air bursting into each other with stiff relaxation move as 
   CHECK(balance(*scene.solver, "mass.air") == Approx(air).epsilon(1e-13));
   CHECK(balance_of_phases(scene, "energy") == Approx(energy).epsilon(1e-13));
 }
+
+// 1 / (rho c^2) = sum of alpha_k / (rho_k c_k^2), rho the mixture's
+TEST_CASE("weak waves in a mixture with stiff relaxation are Wood's") {
+  const int order = GENERATE(1, 2);
+  const double p = 5e8, rho = 0.5 * 1000 + 0.5 * 500, stiffness = 1 / (0.5 / (4.4 * (p + 6e8)) + 0.5 / (1.4 * p)),
+               c = std::sqrt(stiffness / rho), time = 1.6e-4;
+  Scene scene = make_scene(fmt::format(R"(mesh = "@tube.geo"
+mesh_parameters = {{ n = 400 }}
+end_time = {}
+scheme = {{ order = {} }}
+[phase.water]
+material = "water"
+[phase.air]
+material = "air"
+density = 500
+[relaxation]
+"water-air" = {{ velocity = "stiff", pressure = "stiff" }}
+[[region]]
+shape = "everywhere"
+alpha = {{ water = 0.5, air = 0.5 }}
+pressure = 5e8
+velocity = ["x < 0.5 ? 1 : -1", 0]
+[boundary]
+left = "transmissive"
+right = "transmissive"
+"*" = "symmetry"
+)",
+                                       time, order),
+                           ranks());
+  scene.run();
+  const Result result(scene);
+  const double behind = mean(
+      scene, [&](auto cell) { return result.mixture.pressure[cell]; },
+      [&](auto cell) { return std::fabs(result.centre(cell).x - 0.5) < 0.5 * c * time; });
+  double low = 1, high = 0;  // where the pressure has risen by half
+  for (std::int32_t cell = 0; cell < result.cells(); ++cell)
+    if (result.mixture.pressure[cell] > p + 0.5 * rho * c) {
+      low = std::min(low, result.centre(cell).x);
+      high = std::max(high, result.centre(cell).x);
+    }
+  INFO("order " << order << ": rise of pressure " << behind - p << ", by Wood's speed " << rho * c << "; waves at "
+                << low << " and " << high << ", by Wood's speed " << c << " m/s at " << 0.5 - c * time << " and "
+                << 0.5 + c * time);
+  CHECK(behind - p == Approx(rho * c).epsilon(5e-3));
+  CHECK(high - low == Approx(2 * c * time).epsilon(1e-2));
+}
