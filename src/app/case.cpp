@@ -84,7 +84,8 @@ void read_scheme(const CaseTable& top, CaseReading& reading) {
     if (const auto name = table->text("limiter")) scheme.limited = *name != "none";
     if (const auto name = table->text("low_mach")) scheme.low_mach = *name == "on";
   }
-  if (!chosen && scheme.order == 2 && reading.setup.phases.size() == 2 && reading.setup.alpha_min == 0)
+  const bool mixed = reading.setup.alpha_min > 0 || top.has("relaxation");
+  if (!chosen && scheme.order == 2 && reading.setup.phases.size() == 2 && !mixed)
     scheme.interface = InterfaceTreatment::sharp;
   if (reading.setup.alpha_min > 0 && scheme.interface != InterfaceTreatment::diffuse)
     reading.mistakes.add(
@@ -92,6 +93,11 @@ void read_scheme(const CaseTable& top, CaseReading& reading) {
         fmt::format("alpha_min = {} with sharp or compressed interfaces; allowed: 0, or interface = \"diffuse\" in "
                     "[scheme]",
                     reading.setup.alpha_min));
+  if (top.has("relaxation") && scheme.interface != InterfaceTreatment::diffuse)
+    reading.mistakes.add(
+        top.where("relaxation"),
+        "[relaxation] with sharp or compressed interfaces, where phases that share a cell are bodies on "
+        "either side of a surface and no mixture; allowed: interface = \"diffuse\" in [scheme]");
 }
 
 /// `--set phase.coper.material=copper` makes a phase "coper", which nobody asked for if nothing is filled with it.
@@ -130,6 +136,7 @@ Setup read_case(const std::string& file, const CaseOverrides& overrides) {
   read_phases(top, reading);
   read_scheme(top, reading);
   read_contacts(top, reading);
+  read_relaxations(top, reading);
   read_regions(top, reading);
   read_boundaries(top, reading);
   check_phases_of_command_line(top, reading);

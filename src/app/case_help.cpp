@@ -42,6 +42,8 @@ std::string type_of(const KeyInfo& info) {
       return "an array of tables, [[...]]";
     case KeyKind::word_or_table:
       return fmt::format("{}; or a table with one of these as type", words);
+    case KeyKind::number_or_word:
+      return fmt::format("{}, or a number", words);
   }
   return {};
 }

@@ -118,6 +118,10 @@ std::vector<KeyTable> top_level() {
          .kind = KeyKind::table,
          .fallback = "sliding",
          .meaning = "contact between different phases"},
+        {.key = "relaxation",
+         .kind = KeyKind::table,
+         .fallback = "none",
+         .meaning = "of velocities and pressures of phases that are mixed"},
         {.key = "region", .kind = KeyKind::tables, .required = true, .meaning = "initial state, later over earlier"},
         {.key = "boundary",
          .kind = KeyKind::table,
@@ -147,7 +151,7 @@ std::vector<KeyTable> top_level() {
         {.key = "interface",
          .kind = KeyKind::word,
          .words = {"sharp", "compressed", "diffuse"},
-         .fallback = "sharp between two phases at order 2, else diffuse",
+         .fallback = "sharp between two phases at order 2 without [relaxation], else diffuse",
          .meaning = "sharp: a plane in every cell that an interface crosses, bodies slide on any mesh; "
                     "compressed: thin, for films and splashes; diffuse: mixtures, as in the paper"},
         {.key = "limiter",
@@ -223,6 +227,34 @@ void add_phases(std::vector<KeyTable>& tables) {
                       .range = {0, infinity, true, false},
                       .required = true,
                       .meaning = "largest shear stress over the pressure -sigma_nn of the contact"}}});
+  tables.push_back(
+      {"[relaxation]",
+       "in cells that two phases share, so with diffuse interfaces only; mass of each, momentum and energy "
+       "of both stay",
+       {{.key = "A-B",
+         .kind = KeyKind::table,
+         .fallback = "none",
+         .meaning = "between phases A and B: { velocity = ..., pressure = ... }"}}});
+  tables.push_back(
+      {"relaxation A-B",
+       "stiff: at once, common velocity or pressure after every step",
+       {{.key = "velocity",
+         .kind = KeyKind::number_or_word,
+         .unit = "kg/(m^3 s)",
+         .range = not_negative,
+         .words = {"stiff"},
+         .fallback = "0",
+         .meaning = "drag, per difference of velocities and alpha_A alpha_B; each phase keeps as heat what "
+                    "it loses of its kinetic energy as seen from the common velocity"},
+        {.key = "pressure",
+         .kind = KeyKind::number_or_word,
+         .unit = "1/(Pa s)",
+         .range = not_negative,
+         .words = {"stiff"},
+         .fallback = "0",
+         .meaning = "d alpha_A / dt, per difference of pressures and alpha_A alpha_B; work is done by the "
+                    "pressure at which both come to rest; a solid keeps its shape; nothing, where a phase would "
+                    "grow tenfold in a step"}}});
 }
 
 void add_regions(std::vector<KeyTable>& tables) {

@@ -26,6 +26,7 @@ enum class KeyKind {
   table,
   tables,         ///< [[...]]
   word_or_table,  ///< one of KeyInfo::words, or a table with it as type
+  number_or_word,
 };
 
 /// low < value < high; a bound belongs to the range if it is closed.

@@ -21,6 +21,7 @@ struct CaseReading {
 
 void read_phases(const CaseTable& top, CaseReading& reading);
 void read_contacts(const CaseTable& top, CaseReading& reading);
+void read_relaxations(const CaseTable& top, CaseReading& reading);
 void read_regions(const CaseTable& top, CaseReading& reading);
 void read_boundaries(const CaseTable& top, CaseReading& reading);
 /// [output], and what is sampled: [[line]], [[probe]], [[integral]].

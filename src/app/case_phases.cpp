@@ -1,4 +1,4 @@
-// [phase.NAME] and [contact].
+// [phase.NAME], [contact] and [relaxation].
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -126,8 +126,8 @@ std::vector<std::pair<int, int>> pairs_of(const std::string& key, const std::vec
   return pairs;
 }
 
-std::vector<std::string> contact_keys(const std::vector<PhaseSetup>& phases) {
-  std::vector<std::string> keys{"default"};
+std::vector<std::string> names_of_pairs(const std::vector<PhaseSetup>& phases) {
+  std::vector<std::string> keys;
   for (std::size_t l = 0; l < phases.size(); ++l)
     for (std::size_t m = l + 1; m < phases.size(); ++m)
       if (!phases[l].is_void() && !phases[m].is_void()) keys.push_back(phases[l].name + "-" + phases[m].name);
@@ -233,6 +233,8 @@ void read_contacts(const CaseTable& top, CaseReading& reading) {
   if (!contacts) return;
   Setup& setup = reading.setup;
   const KeyInfo& info = keys_of("[contact]").keys.front();
+  std::vector<std::string> allowed = names_of_pairs(setup.phases);
+  allowed.insert(allowed.begin(), info.key);
   for (const TomlEntry& entry : std::get<TomlTable>(contacts->value.data)) {
     const Contact contact = read_contact(info, entry, reading);
     const auto pairs = pairs_of(entry.key, setup.phases);
@@ -240,7 +242,7 @@ void read_contacts(const CaseTable& top, CaseReading& reading) {
       setup.default_contact = contact;
     else if (pairs.empty())
       reading.mistakes.add(entry.where, fmt::format("contact \"{}\" is not between two phases with a state; {}",
-                                                    entry.key, allowed_names(entry.key, contact_keys(setup.phases))));
+                                                    entry.key, allowed_names(entry.key, allowed)));
     else if (pairs.size() > 1)
       reading.mistakes.add(entry.where, fmt::format("contact \"{}\" names more than one pair of phases; allowed: phase "
                                                     "names that tell the pairs apart",
@@ -254,6 +256,39 @@ void read_contacts(const CaseTable& top, CaseReading& reading) {
                            fmt::format("friction of \"{}\", of which one is a fluid; allowed: sliding", entry.key));
     else
       setup.contacts[pairs[0]] = contact;
+  }
+}
+
+void read_relaxations(const CaseTable& top, CaseReading& reading) {
+  const TomlEntry* relaxations = top.table("relaxation");
+  if (!relaxations) return;
+  Setup& setup = reading.setup;
+  const KeyInfo& info = keys_of("[relaxation]").keys.front();
+  const auto rate = [](const CaseTable& table, std::string_view key) {
+    const TomlEntry* given = table.entry(key);
+    return !given ? 0 : std::holds_alternative<std::string>(given->value.data) ? infinity : number_of(given->value);
+  };
+  for (const TomlEntry& entry : std::get<TomlTable>(relaxations->value.data)) {
+    if (!check_value(info, entry.key, entry.value, reading.mistakes)) continue;
+    const CaseTable table(std::get<TomlTable>(entry.value.data), entry.where, keys_of("relaxation A-B"),
+                          reading.mistakes);
+    const auto pairs = pairs_of(entry.key, setup.phases);
+    if (std::get<TomlTable>(entry.value.data).empty())
+      reading.mistakes.add(entry.where,
+                           fmt::format("relaxation \"{}\" of nothing; allowed: velocity and / or pressure", entry.key));
+    else if (pairs.empty())
+      reading.mistakes.add(entry.where, fmt::format("relaxation \"{}\" is not between two phases with a state; {}",
+                                                    entry.key, allowed_names(entry.key, names_of_pairs(setup.phases))));
+    else if (pairs.size() > 1)
+      reading.mistakes.add(entry.where, fmt::format("relaxation \"{}\" names more than one pair of phases; allowed: "
+                                                    "phase names that tell the pairs apart",
+                                                    entry.key));
+    else if (setup.relaxations.contains(pairs[0]) && !entry.where.from_command_line())
+      reading.mistakes.add(entry.where, fmt::format("relaxation \"{}\" is given twice; allowed: each pair once, either "
+                                                    "order",
+                                                    entry.key));
+    else
+      setup.relaxations[pairs[0]] = {rate(table, "velocity"), rate(table, "pressure")};
   }
 }
 

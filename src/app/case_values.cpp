@@ -58,6 +58,8 @@ class ValueCheck {
         return tables(value);
       case KeyKind::word_or_table:
         return std::holds_alternative<TomlTable>(value.data) || word(value);
+      case KeyKind::number_or_word:
+        return text(value) ? word(value) : number(value, false);
     }
     return false;
   }

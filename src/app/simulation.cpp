@@ -76,6 +76,10 @@ std::string describe(const Scene& scene, const Solver& solver) {
                       : scheme.interface == InterfaceTreatment::compressed ? ", compressed interfaces"
                                                                            : ", diffuse interfaces",
                       scheme.low_mach ? "on" : "off");
+  const auto rate = [](double value) { return std::isinf(value) ? "stiff" : fmt::format("{:g}", value); };
+  for (const auto& [pair, rates] : scene.setup.relaxations)
+    text += fmt::format("  {} and {} relax: velocity {}, pressure {}\n", scene.setup.phases[pair.first].name,
+                        scene.setup.phases[pair.second].name, rate(rates.velocity), rate(rates.pressure));
   for (int k = 0; k < solver.fields().n_phases(); ++k) {
     const Phase& phase = solver.fields().phases[k];
     if (phase.is_void) {

@@ -32,6 +32,14 @@ struct Contact {
   bool operator==(const Contact&) const = default;
 };
 
+/// Of two phases that are mixed, see relax. 0: none of it; infinity: at once.
+struct Relaxation {
+  double velocity = 0;  ///< drag per difference of velocities and product of volume fractions [kg/(m^3 s)]
+  double pressure = 0;  ///< rate of the volume fraction, likewise [1/(Pa s)]
+
+  bool operator==(const Relaxation&) const = default;
+};
+
 struct PhaseSetup {
   std::string name;
   Eos eos;                                      ///< unused by a void
@@ -190,8 +198,9 @@ struct Setup {
   std::optional<std::int64_t> max_steps;
   std::vector<PhaseSetup> phases;
   Contact default_contact;
-  std::map<std::pair<int, int>, Contact> contacts;  ///< by phase indices, smaller first
-  std::vector<RegionSetup> regions;                 ///< painted in order
+  std::map<std::pair<int, int>, Contact> contacts;        ///< by phase indices, smaller first
+  std::map<std::pair<int, int>, Relaxation> relaxations;  ///< likewise
+  std::vector<RegionSetup> regions;                       ///< painted in order
   std::vector<BoundarySetup> boundaries;
   OutputSetup output;
   std::optional<std::int64_t> history_every;  ///< steps between rows; default one row per 0.1 % of the run

@@ -51,6 +51,7 @@ void Solver::take_step(double until) {
   if (sharp_) sharp_->act(faces_, fields_, touched_cells_.span());
   update_cells(dt);
   if (falls) accelerate(fields_, (dt - fallen) * setup_.gravity);
+  relax_pairs(dt);
   relax_dust();
   if (redistribution_) redistribution_->run(mesh_, faces_, fields_, touched_cells_.span());
   last_dt_ = dt;

@@ -18,6 +18,7 @@
 #include "solver/kernels.hpp"
 #include "solver/reconstruction.hpp"
 #include "solver/redistribution.hpp"
+#include "solver/relaxation.hpp"
 #include "solver/setup.hpp"
 #include "solver/sharp_interface.hpp"
 #include "solver/snapshot.hpp"
@@ -114,6 +115,7 @@ class Solver {
   void convert_owned(double dt);
   void add_halo_followers(int k);
   int find_void() const;
+  void relax_pairs(double dt);
   void relax_dust();
   void relax_splinters(std::vector<std::pair<std::int32_t, int>>& inadmissible);
   void mend(std::vector<std::pair<std::int32_t, int>>& inadmissible);
@@ -132,6 +134,7 @@ class Solver {
   Fields fields_;
   std::vector<PhaseKernels> kernels_;      // per phase
   std::vector<PairKernels> pair_kernels_;  // [l * n + m], null with a void
+  std::vector<RelaxedPair> relaxed_pairs_;
   std::optional<Interfaces> interfaces_;
   std::optional<Reconstruction> reconstruction_;  // of order 2
   std::optional<SharpInterface> sharp_;

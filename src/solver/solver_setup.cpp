@@ -145,6 +145,7 @@ Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
   for (int l = 0; l < fields_.n_phases(); ++l)
     for (int m = 0; m < fields_.n_phases(); ++m)
       if (l != m) interfaces_->set_friction(l, m, setup_.contact(l, m).coefficient);
+  for (const auto& [pair, rates] : setup_.relaxations) relaxed_pairs_.push_back({pair.first, pair.second, rates});
   set_initial_state();
   if (!fields_.multiphase())
     for (const Part part : {Part::inside, Part::mirror, Part::halo, Part::prescribed})

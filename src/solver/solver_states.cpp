@@ -191,6 +191,12 @@ int Solver::find_void() const {
   return -1;
 }
 
+/// Phases that share a cell exchange momentum and volume, pair by pair, after all else that the step does to them.
+void Solver::relax_pairs(double dt) {
+  for (const RelaxedPair& pair : relaxed_pairs_)
+    for (const std::int32_t cell : touched_cells_.span()) relax(fields_, pair, cell, dt);
+}
+
 /// Dust before a void has the void's pressure, about.
 void Solver::relax_dust() {
   constexpr double tolerance = 0.1;

@@ -4,18 +4,10 @@
 #include <cmath>
 
 #include "physics/smooth_flow.hpp"
+#include "solver/cell_energy.hpp"
 
 namespace cobasis {
 namespace {
-
-/// [J/kg]; infinite where the cobasis is no deformation.
-template <class G>
-double stored_energy(const Phase& phase, const Fields& fields, std::int32_t cell) {
-  const auto e = make_cobasis<G>([&](int c) { return phase.conserved[fields.first_cobasis() + c][cell]; });
-  const double det = determinant(e);
-  if (!(det > 0)) return infinity;
-  return elastic_energy(phase.material, scaled_metric(e, metric_scale(e)));
-}
 
 /// v' [m^3/kg] with e(1 / v', p0) = e^h - p0 (v' - v), by bisection: e(v, p0) + p0 v grows with v.
 double volume_at(const Eos& eos, double e_h, double v, double p0) {
@@ -41,17 +33,12 @@ bool relax_to_void(Fields& fields, int k, int void_phase, std::int32_t cell, dou
   Phase& around = fields.phases[void_phase];
   const double mass = phase.conserved[0][cell], alpha = phase.alpha[cell];
   if (!(mass > 0) || !(alpha > 0)) return false;
-  double e_h = phase.conserved[1 + fields.dimension][cell] / mass;
-  for (int d = 0; d < fields.dimension; ++d) {
-    const double u = phase.conserved[1 + d][cell] / mass;
-    e_h -= 0.5 * u * u;
-  }
+  const double e_h = internal_energy(fields, phase, cell);
   const double v = alpha / mass, p0 = around.void_pressure;
   double volume = 0;
   bool deformed = false;
   if (phase.kind == Kind::solid) {
-    const double stored =
-        fields.dimension == 2 ? stored_energy<Plane>(phase, fields, cell) : stored_energy<Space>(phase, fields, cell);
+    const double stored = stored_energy(fields, phase, cell);
     deformed = stored < e_h;
     if (deformed) volume = volume_at(phase.eos, e_h - stored, v, p0);
   }

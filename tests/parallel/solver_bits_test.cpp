@@ -220,3 +220,27 @@ bottom = "no_slip"
 top = { type = "outlet", pressure = 1e5 }
 )");
 }
+
+TEST_CASE("mixtures whose velocities and pressures relax give the same bits on any number of ranks") {
+  check_bits_of_text(60, "relaxing mixture", triangles + R"([phase.copper]
+material = "copper"
+[phase.air]
+material = "air"
+[relaxation]
+"copper-air" = { velocity = 1e8, pressure = "stiff" }
+[[region]]
+shape = "everywhere"
+alpha = { copper = 0.6, air = 0.4 }
+pressure = 1e6
+velocity = [-30, 50]
+[[region]]
+shape = "half_space"
+point = [0.45, 0.5]
+normal = [-0.8, -0.4]
+fill = "copper"
+pressure = 1e8
+velocity = [30, -20]
+[boundary]
+"*" = "wall"
+)");
+}

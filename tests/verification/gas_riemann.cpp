@@ -52,4 +52,17 @@ GasRiemann::State GasRiemann::at(double xi) const {
   return state;
 }
 
+GasRiemann::Interval GasRiemann::star_region() const {
+  const auto edge = [&](double outside) {
+    double inside = u_star;
+    for (int i = 0; i < 200; ++i) {
+      const double middle = 0.5 * (inside + outside);
+      (at(middle).p == p_star ? inside : outside) = middle;
+    }
+    return inside;
+  };
+  const double reach = std::fabs(l.u) + std::fabs(r.u) + std::fabs(u_star) + l.sound_speed() + r.sound_speed();
+  return {edge(u_star - 10 * reach), edge(u_star + 10 * reach)};
+}
+
 }  // namespace cobasis::test

@@ -20,6 +20,11 @@ struct GasRiemann {
   };
   /// At x / t = xi [m/s].
   State at(double xi) const;
+  /// The slowest and the fastest x / t with the pressure p_star: between them lie both star states.
+  struct Interval {
+    double low, high;
+  };
+  Interval star_region() const;
 };
 
 }  // namespace cobasis::test

@@ -205,8 +205,8 @@ TEST_CASE("the help on cases names every key of the example") {
     ++keys;
   }
   CHECK(keys > 40);
-  for (const char* table : {"[scheme]", "[phase.NAME]", "[contact]", "[[region]]", "[boundary]", "[output]", "[[line]]",
-                            "[[probe]]", "[[integral]]", "[mesh_parameters]"})
+  for (const char* table : {"[scheme]", "[phase.NAME]", "[contact]", "[relaxation]", "[[region]]", "[boundary]",
+                            "[output]", "[[line]]", "[[probe]]", "[[integral]]", "[mesh_parameters]"})
     CHECK_THAT(help, Catch::Matchers::Contains(table));
 }
 

@@ -365,6 +365,24 @@ TEST_CASE("a density beyond what an equation of state can hold is refused") {
   CHECK(mistakes_in(with(dense, "1600", "1000")).empty());
 }
 
+TEST_CASE("relaxation is between two phases with a state, at a rate or stiff, and not at sharp interfaces") {
+  const auto relaxed = [](const std::string& entry) { return rest + "[relaxation]\n" + entry + "\n"; };
+  check_mistake(relaxed("\"air-coper\" = { velocity = \"stiff\" }"), "air-coper",
+                {"not between two phases", "allowed: air-copper", "did you mean \"air-copper\"?"});
+  check_mistake(relaxed("\"air-copper\" = { velocity = \"stif\" }"), "air-copper", {"allowed: stiff; did you mean"});
+  check_mistake(relaxed("\"air-copper\" = { pressure = -1 }"), "air-copper", {"pressure = -1", "stiff, or a number"});
+  check_mistake(relaxed("\"air-copper\" = { presure = 1 }"), "air-copper", {"unknown key", "\"pressure\"?"});
+  check_mistake(relaxed("\"air-copper\" = \"stiff\""), "air-copper", {"allowed: a table"});
+  check_mistake(relaxed("\"air-copper\" = {}"), "air-copper", {"of nothing", "velocity and / or pressure"});
+  check_mistake(relaxed("\"air-copper\" = { velocity = 1 }\n\"copper-air\" = { velocity = 2 }"), "\"copper-air\"",
+                {"given twice"});
+  check_mistake(with(relaxed("\"air-copper\" = { velocity = 1 }"), "material = \"air\"", "void = { pressure = 1e5 }"),
+                "\"air-copper\"", {"not between two phases with a state"});
+  for (const char* interface : {"sharp", "compressed"})
+    check_mistake(relaxed("\"air-copper\" = { velocity = 1 }") + "[scheme]\ninterface = \"" + interface + "\"\n",
+                  "[relaxation]", {"with sharp or compressed interfaces", "allowed: interface = \"diffuse\""});
+}
+
 TEST_CASE("friction needs a coefficient, and two solids") {
   check_mistake(rest + "[contact]\ndefault = \"friction\"\n", "default", {"missing key \"coefficient\""});
   check_mistake(rest + "[contact]\ndefault = { type = \"friction\", coefficient = -1 }\n", "default",

@@ -176,6 +176,15 @@ TEST_CASE("contacts hold for a pair in either order, the default for the others"
   CHECK(read_text(rest).contact(0, 1) == Contact::sliding);
 }
 
+TEST_CASE("relaxation has rates or is stiff, for a pair in either order, and makes interfaces diffuse") {
+  const Setup setup = read_text(rest + "[relaxation]\n\"copper-air\" = { velocity = 1e4, pressure = \"stiff\" }\n");
+  CHECK(setup.relaxations ==
+        std::map<std::pair<int, int>, Relaxation>{{{0, 1}, {.velocity = 1e4, .pressure = infinity}}});
+  CHECK(setup.scheme.interface == InterfaceTreatment::diffuse);
+  CHECK(read_text(rest).relaxations.empty());
+  CHECK(read_text(rest).scheme.interface == InterfaceTreatment::sharp);
+}
+
 TEST_CASE("contacts with friction have a coefficient") {
   const std::string two = with(rest, "material = \"air\"", "material = \"aluminium\"");
   const auto contact = [&](const std::string& keys) { return read_text(two + "[contact]\n" + keys).contact(1, 0); };
