@@ -10,7 +10,7 @@ import matplotlib.pyplot as plot
 from common.results import Failure
 
 
-def new_figure(count, columns=2, width=4.0, height=2.3):
+def new_figure(count, columns=2, width=4.0, height=2.5):
     """(figure, axes) of so many panels."""
     rows = math.ceil(count / columns)
     figure, axes = plot.subplots(rows, columns, figsize=(width * columns, height * rows), squeeze=False)
