@@ -1,13 +1,12 @@
 #!/usr/bin/python3
 """Computes the figures of Hank, Favrie & Massoni, J. Comput. Phys. (2017), anew.
 
-Runs the cases that the chosen figures need (all by default) and leaves a picture of each, and figures.md, a table of what
-was measured beside what is exact.
+Runs the cases that the chosen figures need (all by default) and leaves a picture of each, and figures.md, a table of
+what was measured beside what is exact.
 """
 import argparse
 import concurrent.futures
 import os
-import shutil
 import sys
 import time
 
@@ -19,6 +18,7 @@ from gallery import disc, droplet, plate, tubes
 from gallery.run import Results
 
 FAMILIES = {family.name: family for module in (tubes, plate, droplet, disc) for family in module.FAMILIES}
+COMPLETE = "complete"  # a file in the folder of a run that came to its end
 GALLERY = os.path.join(ROOT, "cases/figures")
 
 
@@ -29,14 +29,16 @@ def perform(family, quick, given, pool):
     def one(run):
         directory = os.path.join(folder, run.name)
         if given.redraw:
-            done = os.path.exists(os.path.join(directory, "history.csv"))
+            done = os.path.exists(os.path.join(directory, COMPLETE))
             return Outcome(0 if done else 2, "no results of an earlier run", {})
         start = time.monotonic()
         outcome = run_case(given.program, run.case, directory, run.settings, given.limit)
-        words = f"{time.monotonic() - start:.1f} s" if outcome.exit == 0 else f"exit status {outcome.exit}: {outcome.words}"
+        words = f"{time.monotonic() - start:.1f} s"
+        if outcome.exit == 0:
+            open(os.path.join(directory, COMPLETE), "w").close()
+        else:
+            words += f", exit status {outcome.exit}: {outcome.words}"
         print(f"{run.name}: {words}", flush=True)
-        if outcome.exit != 0:
-            shutil.rmtree(directory, ignore_errors=True)
         return outcome
 
     return {run.name: pool.submit(one, run) for run in family.runs(quick)}

@@ -4,8 +4,8 @@
     render_droplet.py DIR/droplet.pvd PICTURE.png
 
 reads the output of cases/droplet.toml: a quarter of the body, at x, y >= 0 on a wall at z = 0; or that of
-cases/droplet_axisymmetric.toml: half of the meridian plane, the wall at x = 0, the axis at y = 0. Needs a display; without
-one: xvfb-run -a -s '-screen 0 1280x1024x24 -noreset' render_droplet.py ...
+cases/droplet_axisymmetric.toml: half of the meridian plane, the wall at x = 0, the axis at y = 0. Needs a display;
+without one: xvfb-run -a -s '-screen 0 1280x1024x24 -noreset' render_droplet.py ...
 """
 import argparse
 import math

@@ -19,7 +19,8 @@ from gallery.plate import crossings, schlieren  # noqa: E402
 def squares(n):
     """Corners of n by n cells of the unit square."""
     x, y = (numpy.ravel(a) / n for a in numpy.meshgrid(numpy.arange(n), numpy.arange(n)))
-    return numpy.stack([numpy.stack([x + dx / n, y + dy / n], axis=1) for dx, dy in ((0, 0), (1, 0), (1, 1), (0, 1))], axis=1)
+    corners = [numpy.stack([x + dx / n, y + dy / n], axis=1) for dx, dy in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    return numpy.stack(corners, axis=1)
 
 
 def triangles(n):
@@ -85,13 +86,14 @@ class Tool(unittest.TestCase):
     program = os.environ.get("COBASIS_PROGRAM")
 
     def run_tool(self, *arguments):
-        command = [sys.executable, os.path.join(ROOT, "tools/figures.py"), "--program", self.program or "none", *arguments]
-        return subprocess.run(command, capture_output=True, text=True)
+        command = [sys.executable, os.path.join(ROOT, "tools/figures.py"), "--program", self.program or "none"]
+        return subprocess.run(command + list(arguments), capture_output=True, text=True)
 
     def test_an_unknown_figure_is_refused_with_those_there_are(self):
         done = self.run_tool("slidng")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("no figure 'slidng'; allowed: advection, impact, shear, sliding, plate, droplet, disc", done.stderr)
+        allowed = "advection, impact, shear, sliding, plate, droplet, disc"
+        self.assertIn(f"no figure 'slidng'; allowed: {allowed}", done.stderr)
 
     @unittest.skipUnless(program, "needs COBASIS_PROGRAM")
     def test_a_figure_is_computed_drawn_and_measured(self):

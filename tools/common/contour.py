@@ -3,8 +3,8 @@ import numpy
 
 
 def circulation(corners, vector, polygon):
-    """Of a vector field: corners (cells, k, 2) of convex cells, any repeated; vector (cells, 2); polygon (n, 2), closed. Sums
-    over the pieces of the polygon in each cell. Where a side runs along faces it takes the mean of both cells, at the
+    """Of a vector field: corners (cells, k, 2) of convex cells, any repeated; vector (cells, 2); polygon (n, 2).
+    Sums over its pieces in each cell. Where a side runs along faces it takes the mean of both cells, at the
     edge of the mesh the one cell."""
     return sum(_along(corners, vector, start, end) for start, end in zip(polygon, numpy.roll(polygon, -1, axis=0)))
 

@@ -35,7 +35,8 @@ def outputs(pvd):
         root = xml.etree.ElementTree.parse(pvd).getroot()
     except (OSError, xml.etree.ElementTree.ParseError) as error:
         raise Failure(f"{pvd}: {error}") from None
-    found = [(float(d.get("timestep")), os.path.join(os.path.dirname(pvd), d.get("file"))) for d in root.iter("DataSet")]
+    folder = os.path.dirname(pvd)
+    found = [(float(d.get("timestep")), os.path.join(folder, d.get("file"))) for d in root.iter("DataSet")]
     if not found:
         raise Failure(f"{pvd}: lists no output")
     return found

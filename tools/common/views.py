@@ -28,8 +28,8 @@ def is_meridian(grid):
 
 
 def without_seams(grid):
-    """The grid with one point where the pieces of several ranks have one each; no data. Half of a meridian plane comes to
-    stand where that of a body in space does."""
+    """The grid with one point where the pieces of several ranks have one each; no data. Half of a meridian plane comes
+    to stand where that of a body in space does."""
     corners, joined = numpy.unique(vtk_to_numpy(grid.GetPoints().GetData()), axis=0, return_inverse=True)
     if not corners[:, 2].any():
         corners = corners[:, [1, 2, 0]].copy()

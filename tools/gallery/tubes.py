@@ -71,7 +71,9 @@ class Tube:
         line = columns(os.path.join(results.directory(self.case), "axis.csv"))
         exact = exact_in_tube(self.case)
         self._draw(line, exact, results.picture(self.case))
-        return ROWS[self.case](line, exact(line["x"]))
+        rows = ROWS[self.case](line, exact(line["x"]))
+        rows[0].quantity = f"{self.case}, {len(line['x'])} cells: {rows[0].quantity}"
+        return rows
 
     def _exact_of(self, column, x, exact):
         """Of a column of a phase or of the mixture; NaN where the phase is not."""
@@ -97,9 +99,8 @@ class Tube:
                 phase = legend or None
                 there = line[f"alpha.{phase}"] > 1e-2 if phase and not column.startswith("alpha") else slice(None)
                 axis.plot(fine, self._exact_of(column, fine, exact) / unit, color="black", linewidth=0.9)
-                axis.plot(
-                    line["x"][there], line[column][there] / unit, ".", color=colour, markersize=2.6, label=legend or None
-                )
+                x, values = line["x"][there], line[column][there] / unit
+                axis.plot(x, values, ".", color=colour, markersize=2.6, label=legend or None)
             axis.set_ylabel(label, fontsize=8)
             limits = RANGES.get(label) or RANGES.get(f"{self.case} {label}")
             if limits:
@@ -145,9 +146,10 @@ def _errors(line, exact, *names):
 
 def rows_of_shear(line, exact):
     middle = (line["x"] > 0.4) & (line["x"] < 0.45)
+    stress, density = numpy.mean(line["stress.xy"][middle]), numpy.mean(line["density"][middle])
     return [
-        Row("tangential stress in the middle [GPa]", f"{numpy.mean(line['stress.xy'][middle]) / 1e9:.5f}", "−4.20390", "—"),
-        Row("density there [kg/m³]", f"{numpy.mean(line['density'][middle]):.3f}", "2690.624", "—"),
+        Row("tangential stress in the middle [GPa]", f"{stress / 1e9:.5f}", "−4.20390", "—"),
+        Row("density there [kg/m³]", f"{density:.3f}", "2690.624", "—"),
         Row("mean error of tangential velocity, pressure, tangential stress",
             _errors(line, exact, "velocity.y", "pressure", "stress.xy"), "0", "—"),
     ]
