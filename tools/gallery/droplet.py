@@ -35,8 +35,8 @@ class Droplet:
 
     def runs(self, quick):
         self.speeds, self.sizes = (QUICK_SPEEDS, QUICK_SIZES) if quick else (SPEEDS, SIZES)
-        h = "0.4e-3" if quick else "0.2e-3"
         for a in STORED:
+            h = "0.2e-3" if a == 0 and not quick else "0.4e-3"  # finer, lamellae of a = -1 stop the run
             room = {"mesh_parameters": f"{{ h = {h}, outer = 6, height = 24e-3 }}"}
             yield Run(f"droplet_{a}_series", "droplet_axisymmetric",
                       room | {"phase.carbopol.elastic.a": a, "end_time": 16e-3, "output.every": 0.5e-3})
