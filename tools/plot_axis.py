@@ -6,32 +6,13 @@
 reads what a [[line]] of a case leaves at the end of its run, in the columns' own units.
 """
 import argparse
-import csv
 import json
 import os
 import sys
 
 import numpy
 
-
-class Failure(Exception):
-    pass
-
-
-def read(file):
-    """{column: values} of a line."""
-    try:
-        with open(file, newline="") as lines:
-            rows = list(csv.reader(lines))
-    except OSError as error:
-        raise Failure(error) from None
-    if len(rows) < 3:
-        raise Failure(f"{file}: holds no samples")
-    try:
-        values = numpy.array([[float(value) for value in row] for row in rows[1:]])
-    except ValueError as error:
-        raise Failure(f"{file}: {error}") from None
-    return dict(zip(rows[0], values.T))
+from common.results import Failure, columns as read
 
 
 def last_time(file):

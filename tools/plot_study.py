@@ -12,11 +12,9 @@ import math
 import os
 import sys
 
+from common.results import Failure
+
 most_panels = 11
-
-
-class Failure(Exception):
-    pass
 
 
 def read(file):

@@ -15,15 +15,15 @@ import math
 import os
 import re
 import shutil
-import subprocess
 import sys
 import time
 
 import numpy
 
-from tradeoff_cases import CASES, QUICK, ROOT, Failure
-
-MARKERS = ("<!-- tradeoff: begin -->", "<!-- tradeoff: end -->")
+from common.program import run_case
+from common.readme import into_readme
+from common.results import ROOT, Failure
+from tradeoff_cases import CASES, QUICK
 
 
 @dataclasses.dataclass
@@ -55,16 +55,9 @@ def perform(run, program, scratch, limit):
     """Runs the case and fills in what came of it."""
     name = f"{run.case} {run.scheme} {run.element} {run.size}"
     directory = os.path.join(scratch, re.sub(r"[^a-z0-9.]+", "_", name.lower()))
-    shutil.rmtree(directory, ignore_errors=True)
-    command = [program, "run", os.path.join(ROOT, "cases", run.case + ".toml"), "--quiet", "--output", directory]
-    for key, value in (run.keys | {"output.count": "1", "output.precision": '"float64"'}).items():
-        command += ["--set", f"{key}={value}"]
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=limit, stdin=subprocess.DEVNULL)
-        run.exit, out, err = done.returncode, done.stdout, done.stderr
-    except subprocess.TimeoutExpired:
-        run.exit, out, err = 124, "", f"stopped after {limit} s"
-    summary = dict(re.findall(r"(\w+)=(\S+)", out.splitlines()[-1])) if out.strip() else {}
+    settings = run.keys | {"output.count": "1", "output.precision": '"float64"'}
+    outcome = run_case(program, run.case, directory, settings, limit)
+    run.exit, summary = outcome.exit, outcome.summary
     if run.exit == 0:
         try:
             run.seconds, run.cells, run.steps = (
@@ -79,7 +72,7 @@ def perform(run, program, scratch, limit):
         except (Failure, KeyError, OSError, ValueError) as error:
             run.words = f"no error measured: {error!r}"
     else:
-        run.words = (err.strip().splitlines() or [""])[-1]
+        run.words = outcome.words
     shutil.rmtree(directory, ignore_errors=True)
     return run
 
@@ -195,17 +188,6 @@ def table(runs):
     return "\n".join(lines) + "\n"
 
 
-def into_readme(text):
-    file = os.path.join(ROOT, "cases/README.md")
-    with open(file) as lines:
-        readme = lines.read()
-    parts = [readme.find(marker) for marker in MARKERS]
-    if min(parts) < 0 or parts[0] > parts[1]:
-        raise Failure(f"{file}: has no '{MARKERS[0]}' followed by '{MARKERS[1]}'")
-    with open(file, "w") as out:
-        out.write(readme[: parts[0] + len(MARKERS[0])] + "\n" + text + readme[parts[1] :])
-
-
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--program", default=os.path.join(ROOT, "build/release/cobasis"))
@@ -249,7 +231,7 @@ def main():
         with open(os.path.join(given.output, "tradeoff.md"), "w") as out:
             out.write(text)
         if given.readme:
-            into_readme(text)
+            into_readme("tradeoff", text)
         print(text, end="")
     except Failure as failure:
         sys.exit(f"tradeoff: {failure}")

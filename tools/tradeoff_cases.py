@@ -4,35 +4,20 @@ An error is the L1 distance from the exact solution over that of the exact solut
 relative distance of its largest radii until 3 ms from 1.93 R0 (outermost) and 1.83 R0 (95 % of the volume), and of
 kinetic and elastic energy at 2 ms from .425 and .320 of the first kinetic energy.
 """
-import csv
 import dataclasses
 import math
 import os
-import xml.etree.ElementTree
 
 import numpy
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-REFERENCE = os.path.join(ROOT, "tests/verification/reference")
+from common.exact import exact_in_tube
+from common.results import columns, last_cells
 
 
-class Failure(Exception):
-    pass
-
-
-def steps_of_table(name, quantities):
-    """Exact values from a table of constant states: {field: values at the cells}."""
-    with open(os.path.join(REFERENCE, name), newline="") as lines:
-        rows = list(csv.DictReader(lines))
-    ends = numpy.array([float(row["to"]) for row in rows])
-
-    def exact(x):
-        state = numpy.searchsorted(ends, x[:, 0])
-        return {
-            field: numpy.array([float(row[column]) for row in rows])[state] for field, column in quantities.items()
-        }
-
-    return exact
+def in_tube(case, fields):
+    """Exact values at the centres of the cells: {field: values}."""
+    exact = exact_in_tube(case)
+    return lambda x: {field: values for field, values in exact(x[:, 0]).items() if field in fields}
 
 
 def advected_front(x):
@@ -65,51 +50,21 @@ def standing_waves(x):
     }
 
 
-def last_output(directory):
-    """Centres and sizes of the cells, and their fields: {name or name.component: values}."""
-    import vtk
-    from vtk.util.numpy_support import vtk_to_numpy
-
-    pvd = [name for name in os.listdir(directory) if name.endswith(".pvd")]
-    if len(pvd) != 1:
-        raise Failure(f"{directory}: holds {len(pvd)} .pvd files")
-    sets = list(xml.etree.ElementTree.parse(os.path.join(directory, pvd[0])).getroot().iter("DataSet"))
-    reader = vtk.vtkXMLPUnstructuredGridReader()
-    reader.SetFileName(os.path.join(directory, sets[-1].get("file")))
-    sizes = vtk.vtkCellSizeFilter()
-    sizes.SetInputConnection(reader.GetOutputPort())
-    centres = vtk.vtkCellCenters()
-    centres.SetInputConnection(sizes.GetOutputPort())
-    centres.Update()
-    data = sizes.GetOutput().GetCellData()
-    fields = {}
-    for i in range(data.GetNumberOfArrays()):
-        values, name = vtk_to_numpy(data.GetArray(i)), data.GetArrayName(i)
-        if values.ndim == 1:
-            fields[name] = values
-        else:
-            names = ("x", "y", "z") if values.shape[1] == 3 else ("xx", "yy", "zz", "xy", "yz", "xz")
-            fields |= {f"{name}.{component}": values[:, c] for c, component in enumerate(names)}
-    volume = fields["Volume"] + fields["Area"]  # of a cell one of them vanishes
-    return vtk_to_numpy(centres.GetOutput().GetPoints().GetData()), volume, fields
-
-
 def errors_of_fields(directory, exact):
-    x, volume, fields = last_output(directory)
+    cells = last_cells(directory)
+    volume = cells.volume
     errors = {}
-    for name, values in exact(x).items():
-        if name not in fields:
-            raise Failure(f"{directory}: no field {name}; it has: {', '.join(fields)}")
+    for name, values in exact(cells.centres).items():
         spread = numpy.abs(values - numpy.average(values, weights=volume))
-        errors[name] = numpy.average(numpy.abs(fields[name] - values), weights=volume) / numpy.average(
+        errors[name] = numpy.average(numpy.abs(cells[name] - values), weights=volume) / numpy.average(
             spread, weights=volume
         )
     return errors
 
 
 def errors_of_droplet(directory):
-    with open(os.path.join(directory, "history.csv"), newline="") as lines:
-        rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(lines)]
+    table = columns(os.path.join(directory, "history.csv"))
+    rows = [dict(zip(table, row)) for row in zip(*table.values())]
     radius = 6e-3
     middle = min(rows, key=lambda row: abs(row["time"] - 2e-3))
     start = rows[0]["kinetic.carbopol"]
@@ -220,11 +175,7 @@ CASES = {
             "hexahedra": [250, 500, 1000, 2000],
             "tetrahedra": [250, 500, 1000],
         },
-        fields_against(
-            steps_of_table(
-                "shear.csv", {"velocity.y": "tangential_velocity", "pressure": "pressure", "stress.xy": "stress_xy"}
-            )
-        ),
+        fields_against(in_tube("shear", ("velocity.y", "pressure", "stress.xy"))),
     ),
     "impact": Case(
         with_steps(TWO_PHASES, ["order 1, diffuse", "order 2, sharp"], [0.4, 1.2]),
@@ -235,12 +186,7 @@ CASES = {
             "hexahedra": [250, 500, 1000, 2000],
             "tetrahedra": [250, 500, 1000],
         },
-        fields_against(
-            steps_of_table(
-                "impact.csv",
-                {"density": "density", "velocity.x": "velocity", "pressure": "pressure", "stress.xx": "stress_xx"},
-            )
-        ),
+        fields_against(in_tube("impact", ("density", "velocity.x", "pressure", "stress.xx"))),
     ),
     "advection": Case(
         TWO_PHASES,

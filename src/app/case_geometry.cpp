@@ -60,6 +60,11 @@ class GeometryCheck {
       const Axis axis = extent ? extent->axis : std::get<Quantile>(integral.what).axis;
       if (plane_ && axis == Axis::z)
         add(fmt::format("integral \"{}\": axis = \"z\" in {} scene; allowed: x, y, radial", integral.name, scene()));
+      if (extent && extent->box) {
+        where_ = extent->where + ": ";
+        check(*extent->box);
+        where_ = setup_.case_file + ": ";
+      }
     }
     return mistakes_;
   }

@@ -458,7 +458,11 @@ void add_boundaries_and_output(std::vector<KeyTable>& tables) {
                     "",
                     {phase,
                      {.key = "alpha", .unit = "-", .range = fraction, .required = true, .meaning = "volume fraction"},
-                     axis}});
+                     axis,
+                     {.key = "box",
+                      .kind = KeyKind::table,
+                      .fallback = "the whole mesh",
+                      .meaning = "only what lies in it counts, as along a line of some width"}}});
   tables.push_back(
       {"quantile",
        "",
@@ -477,7 +481,7 @@ void add_boundaries_and_output(std::vector<KeyTable>& tables) {
                       .meaning = "region; cells are cut by it"}}});
   tables.push_back(
       {"box",
-       "of a mean; with 2 numbers: of any z (plane only)",
+       "of a mean or an extent; with 2 numbers: of any z (plane only)",
        {{.key = "low", .kind = KeyKind::point, .unit = "m", .required = true, .meaning = "smallest coordinates"},
         {.key = "high", .kind = KeyKind::point, .unit = "m", .required = true, .meaning = "largest coordinates"}}});
 }

@@ -58,6 +58,16 @@ std::vector<std::pair<std::string, std::string>> columns_of(const std::vector<Ph
   return columns;
 }
 
+std::optional<Box> read_box(const CaseTable& table, CaseReading& reading) {
+  const auto box = table.table("box", keys_of("box"));
+  if (!box) return std::nullopt;
+  const auto low = box->point("low"), high = box->point("high");
+  if (!low || !high) return std::nullopt;
+  if (!(low->x < high->x && low->y < high->y && low->z <= high->z))
+    reading.mistakes.add(box->where("high"), "box with high not above low; allowed: low < high in every coordinate");
+  return Box{*low, *high};
+}
+
 IntegralSetup read_mean(const CaseTable& table, const std::string& name, CaseReading& reading) {
   IntegralSetup integral{name, Mean{table.text("field").value_or(""), Everywhere{}, {}}, {}};
   Mean& mean = std::get<Mean>(integral.what);
@@ -72,22 +82,15 @@ IntegralSetup read_mean(const CaseTable& table, const std::string& name, CaseRea
     reading.mistakes.add(table.where("field"),
                          fmt::format("field = \"{}\"; {}", mean.field, allowed_names(mean.field, names)));
   }
-  if (const auto box = table.table("box", keys_of("box"))) {
-    const auto low = box->point("low"), high = box->point("high");
-    if (low && high) {
-      mean.region = Box{*low, *high};
-      if (!(low->x < high->x && low->y < high->y && low->z <= high->z))
-        reading.mistakes.add(box->where("high"),
-                             "box with high not above low; allowed: low < high in every coordinate");
-    }
-  }
+  if (const auto box = read_box(table, reading)) mean.region = *box;
   return integral;
 }
 
 IntegralSetup read_integral(CaseTable& table, const std::string& name, CaseReading& reading) {
   table.at_most_one({"extent", "quantile", "mean"});
   if (const auto extent = table.table("extent", keys_of("extent")))
-    return {name, Extent{phase_of(*extent, reading), extent->number("alpha").value_or(0), axis_of(*extent)}};
+    return {name, Extent{phase_of(*extent, reading), extent->number("alpha").value_or(0), axis_of(*extent),
+                         read_box(*extent, reading), reading.mistakes.where(extent->where())}};
   if (const auto quantile = table.table("quantile", keys_of("quantile")))
     return {name, Quantile{phase_of(*quantile, reading), quantile->number("fraction").value_or(0), axis_of(*quantile)}};
   if (const auto mean = table.table("mean", keys_of("mean"))) return read_mean(*mean, name, reading);

@@ -33,6 +33,11 @@ bool through_periodic_image(const Mesh& mesh, std::int32_t face) {
   return dot(difference, difference) > 1e-18 * dot(delta, delta);
 }
 
+bool is_in(const Box& box, const Point& x) {
+  return box.low.x <= x.x && x.x <= box.high.x && box.low.y <= x.y && x.y <= box.high.y && box.low.z <= x.z &&
+         x.z <= box.high.z;
+}
+
 }  // namespace
 
 double coordinate(const Point& x, Axis axis, Geometry geometry) {
@@ -62,18 +67,26 @@ Integrals::Integrals(std::vector<IntegralSetup> setups, Geometry geometry, const
 
 Integrals::Region Integrals::region_of(const IntegralSetup& setup) const {
   Region region;
-  const auto* mean = std::get_if<Mean>(&setup.what);
-  if (!mean) return region;
+  Shape shape = Everywhere{};
+  std::string where;
+  if (const auto* mean = std::get_if<Mean>(&setup.what)) {
+    shape = mean->region;
+    where = mean->where;
+  } else if (const auto* extent = std::get_if<Extent>(&setup.what); extent && extent->box) {
+    shape = *extent->box;
+    where = extent->where;
+  } else {
+    return region;
+  }
   for (std::int32_t i = 0; i < mesh_.n_owned; ++i) {
-    const double fraction = inside_fraction(mean->region, mesh_, i);
+    const double fraction = inside_fraction(shape, mesh_, i);
     if (fraction == 0) continue;
     region.cells.push_back(i);
     region.volumes.push_back(fraction * mesh_.volume[i]);
   }
   if (!mpi_.any(!region.cells.empty()))
-    throw InputError(
-        fmt::format("{}: integral \"{}\": the box lies outside the mesh; allowed: one that holds part of it",
-                    mean->where, setup.name));
+    throw InputError(fmt::format(
+        "{}: integral \"{}\": the box lies outside the mesh; allowed: one that holds part of it", where, setup.name));
   return region;
 }
 
@@ -114,7 +127,9 @@ std::vector<double> Integrals::alpha_with_halo(const Snapshot& snapshot, int pha
 
 double Integrals::evaluate(const Extent& extent, const std::vector<double>& alpha) const {
   double farthest = -infinity;
-  const auto reach = [&](const Point& x) { farthest = std::max(farthest, coordinate(x, extent.axis, geometry_)); };
+  const auto reach = [&](const Point& x) {
+    if (!extent.box || is_in(*extent.box, x)) farthest = std::max(farthest, coordinate(x, extent.axis, geometry_));
+  };
   for (std::int32_t i = 0; i < mesh_.n_owned; ++i) {
     if (alpha[i] >= extent.alpha) reach(mesh_.centroid[i]);
   }

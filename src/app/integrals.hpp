@@ -28,7 +28,7 @@ class Integrals {
   std::vector<double> evaluate(const Snapshot& snapshot);
 
  private:
-  /// This rank's cells in the region of a mean, and their volumes in it.
+  /// This rank's cells in the region of a mean or an extent, and their volumes in it.
   struct Region {
     std::vector<std::int32_t> cells;
     std::vector<double> volumes;
@@ -45,7 +45,7 @@ class Integrals {
   const Mpi& mpi_;
   NeighbourExchange exchange_;
   std::vector<PhaseSetup> phases_;
-  std::vector<Region> regions_;  ///< one per integral; empty where it is no mean
+  std::vector<Region> regions_;  ///< one per integral; empty where it has none
 };
 
 }  // namespace cobasis

@@ -152,7 +152,9 @@ void Output::write_line(Table& line, const Snapshot& snapshot, const std::string
     }
     write_atomically(path(line.files.back().second), text);
     write_atomically(path(line.name + ".csv"), text);
-    write_atomically(path(line.name + ".series"), file_series(line.files));
+    // ParaView takes the reader from the second last extension; the short name is for people and programs.
+    for (const char* extension : {".series", ".csv.series"})
+      write_atomically(path(line.name + extension), file_series(line.files));
   });
 }
 

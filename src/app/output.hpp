@@ -24,7 +24,7 @@ namespace cobasis {
 /// In the output directory, with the case file's stem:
 ///   stem.pvd            ParaView's entry: times and fields/stem_0000.pvtu, each with fields/stem_0000_<rank>.vtu
 ///   <slice>.pvd         the same of a slice: slices/<slice>_0000.pvtu
-///   <line>.csv          the latest samples; <line>.series: all of them, lines/<line>_0000.csv
+///   <line>.csv          the latest samples; <line>.series and <line>.csv.series: all of them, lines/<line>_0000.csv
 ///   <probe>.csv         a row per history row: step, time, fields
 ///   history.csv         step, time, dt, totals, integrals
 ///   units.csv           unit of every column: of the fields (VTU files, lines, probes), of the history

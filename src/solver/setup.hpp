@@ -155,7 +155,9 @@ struct Extent {
   int phase;
   double alpha;
   Axis axis;
-};  ///< farthest coordinate where interpolated alpha reaches the value
+  std::optional<Box> box = {};
+  std::string where = {};  ///< file:line
+};                         ///< farthest coordinate, in the box, where interpolated alpha reaches the value
 struct Quantile {
   int phase;
   double fraction;

@@ -52,7 +52,8 @@ void furnish(const Folder& folder) {
   fs::create_directory(folder.path("tools"));
   folder.write("tools/run", with(stand_in_for_run, "set -euo pipefail", "set -euo pipefail\nSOURCE=" SOURCE_DIR));
   folder.write("tools/test", "#!/bin/sh\nexec bash -n " SOURCE_DIR "/tools/test\n");
-  for (const char* name : {"tools/run", "tools/test"})
+  folder.write("tools/figures", "#!/bin/sh\nexec bash -n " SOURCE_DIR "/tools/figures\n");
+  for (const char* name : {"tools/run", "tools/test", "tools/figures"})
     fs::permissions(folder.path(name), fs::perms::owner_exec, fs::perm_options::add);
 }
 

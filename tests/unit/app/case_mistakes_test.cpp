@@ -176,6 +176,10 @@ TEST_CASE("unknown names of materials, phases, shapes and boundaries are refused
   check_mistake(rest + "[contact]\n\"air-air\" = \"sliding\"\n", "air-air", {"not between two phases"});
   check_mistake(rest + "[[integral]]\nname = \"a\"\nextent = { phase = \"cop\", alpha = 0.5, axis = \"x\" }\n",
                 "extent", {"unknown phase \"cop\"", "\"copper\"?"});
+  check_mistake(rest +
+                    "[[integral]]\nname = \"a\"\nextent = { phase = \"air\", alpha = 0.5, axis = \"x\", "
+                    "box = { low = [0, 0], high = [0, 1] } }\n",
+                "extent", {"box with high not above low"});
   check_mistake(rest + "[output]\nfields = [\"alpha\", \"presure\"]\n", "fields", {"alpha, density", "\"pressure\"?"});
 }
 

@@ -8,6 +8,8 @@
 namespace cobasis::test {
 namespace {
 
+using Catch::Matchers::Contains;
+
 double integral(const Mesh& mesh, std::vector<double> alpha, const decltype(IntegralSetup::what)& what,
                 Geometry geometry = Geometry::plane) {
   Snapshot snapshot;
@@ -27,6 +29,20 @@ TEST_CASE("the extent lies where the interpolated volume fraction has the value"
 
 TEST_CASE("the extent of what is nowhere is not a number") {
   CHECK(std::isnan(integral(squares(3, 1, 1), {0.1, 0.2, 0.4}, Extent{0, 0.5, Axis::x})));
+}
+
+TEST_CASE("the extent in a box is that of the cells and of the places between them in the box") {
+  const Mesh mesh = squares(4, 2, 1);
+  const std::vector<double> alpha = {1, 0.75, 0.25, 0,  // reaches 2
+                                     1, 1,    1,    0};
+  const auto reach = [&](const Point& low, const Point& high) {
+    return integral(mesh, alpha, Extent{0, 0.5, Axis::x, Box{low, high}});
+  };
+  CHECK(reach({0, 0, 0}, {4, 0.75, 0}) == 2);
+  CHECK(reach({0, 1, 0}, {4, 2, 0}) == 3);
+  CHECK(reach({0, 0, 0}, {2.75, 2, 0}) == 2.5);  // the contour at 3 is beyond
+  CHECK(std::isnan(reach({3.25, 0, 0}, {4, 2, 0})));
+  CHECK_THROWS_WITH(reach({5, 0, 0}, {6, 2, 0}), Contains("the box lies outside the mesh"));
 }
 
 TEST_CASE("the extent does not jump through a periodic pair") {

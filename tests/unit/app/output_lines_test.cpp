@@ -236,6 +236,7 @@ TEST_CASE("a line's table has coordinates, phases in order, then the mixture, an
   CHECK(cell_of(rows, 4, "stress.yz") == cell_of(rows, 4, "stress.gas.yz"));
   CHECK(read(scratch.path / "axis.csv") == read(scratch.path / "lines/axis_0001.csv"));
   const std::string series = read(scratch.path / "axis.series");
+  CHECK(read(scratch.path / "axis.csv.series") == series);
   CHECK_THAT(series, Catch::Contains("\"name\": \"lines/axis_0000.csv\", \"time\": 0 }"));
   CHECK_THAT(series, Catch::Contains("\"name\": \"lines/axis_0001.csv\", \"time\": 0.1 }"));
 }
