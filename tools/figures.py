@@ -18,7 +18,7 @@ from gallery import disc, droplet, plate, tubes
 from gallery.run import Results
 
 FAMILIES = {family.name: family for module in (tubes, plate, droplet, disc) for family in module.FAMILIES}
-COMPLETE = "complete"  # a file in the folder of a run that came to its end
+OUTCOME = "outcome"  # a file in the folder of a run: exit status; last words
 GALLERY = os.path.join(ROOT, "cases/figures")
 
 
@@ -29,14 +29,19 @@ def perform(family, quick, given, pool):
     def one(run):
         directory = os.path.join(folder, run.name)
         if given.redraw:
-            done = os.path.exists(os.path.join(directory, COMPLETE))
-            return Outcome(0 if done else 2, "no results of an earlier run", {})
+            try:
+                with open(os.path.join(directory, OUTCOME)) as earlier:
+                    status, words = earlier.read().split(";", 1)
+                return Outcome(int(status), words, {})
+            except (OSError, ValueError):
+                return Outcome(2, "no results of an earlier run", {})
         start = time.monotonic()
         outcome = run_case(given.program, run.case, directory, run.settings, given.limit)
         words = f"{time.monotonic() - start:.1f} s"
-        if outcome.exit == 0:
-            open(os.path.join(directory, COMPLETE), "w").close()
-        else:
+        os.makedirs(directory, exist_ok=True)
+        with open(os.path.join(directory, OUTCOME), "w") as file:
+            file.write(f"{outcome.exit};{outcome.words}")
+        if outcome.exit != 0:
             words += f", exit status {outcome.exit}: {outcome.words}"
         print(f"{run.name}: {words}", flush=True)
         return outcome

@@ -14,6 +14,9 @@ def _along(corners, vector, start, end):
     direction = (end - start) / length
     normal = numpy.array([-direction[1], direction[0]])
     beside = 1e-8 * length * normal
+    reach = numpy.abs(corners - corners[:, :1]).max() * 2
+    near = numpy.abs((corners[:, 0] - start) @ normal) < reach
+    corners, vector = corners[near], vector[near]
     sums = [_sum_over_pieces(corners, vector, start + shift, direction, length) for shift in (beside, -beside)]
     covered = sum(part for _, part in sums)
     return sum(value for value, _ in sums) / covered * length

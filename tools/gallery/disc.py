@@ -131,7 +131,7 @@ def rows_of(word, points):
     return [
         Row(f"disc, {word}, n = {sizes}: slope of the circulation round the quadrant", quadrant_slope, "≥ 1", paper),
         Row(f"mean of {CONTOURS} squares: values; slope", f"{list_of(2)}; {slope(points, 2):.2f}", "0", "—"),
-        Row(f"|ρ/(ρ0 det e) − 1|, n = {last[0]}: mean; largest", f"{last[3]:.1e}; {last[4]:.1e}", "0", "—"),
+        Row(f"distance of ρ/(ρ0 det e) from 1, n = {last[0]}: mean; largest", f"{last[3]:.1e}; {last[4]:.1e}", "0", "—"),
     ]
 
 

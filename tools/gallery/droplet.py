@@ -14,7 +14,7 @@ SPEEDS = [0.3, 0.5, 1, 2, 3, 4.5, 6]
 QUICK_SPEEDS = [0.5, 1, 3]
 SIZES = ["0.4e-3", "0.3e-3", "0.2e-3"]
 QUICK_SIZES = ["0.4e-3"]
-TILE = (520, 400)
+TILE = (520, 420)
 COLOURS = {0: (0.93, 0.93, 0.9), -1: (0.25, 0.42, 0.75)}
 
 
@@ -37,7 +37,7 @@ class Droplet:
         self.speeds, self.sizes = (QUICK_SPEEDS, QUICK_SIZES) if quick else (SPEEDS, SIZES)
         for a in STORED:
             h = "0.2e-3" if a == 0 and not quick else "0.4e-3"  # finer, lamellae of a = -1 stop the run
-            room = {"mesh_parameters": f"{{ h = {h}, outer = 6, height = 24e-3 }}"}
+            room = {"mesh_parameters": f"{{ h = {h}, {'outer = 3, height = 40e-3' if a == 0 else 'outer = 6, height = 24e-3'} }}"}
             yield Run(f"droplet_{a}_series", "droplet_axisymmetric",
                       room | {"phase.carbopol.elastic.a": a, "end_time": 16e-3, "output.every": 0.5e-3})
         for h in self.sizes:
@@ -55,13 +55,13 @@ class Droplet:
     def draw(self, results):
         if all(results.good(f"droplet_{a}_series") for a in STORED):
             self._draw_series(results)
-        histories = {
-            (a, speed, h): columns(os.path.join(results.directory(name_of(a, speed, h)), "history.csv"))
-            for a in STORED
-            for speed in self.speeds
-            for h in self.sizes
-            if results.good(name_of(a, speed, h))
-        }
+        histories = {}
+        for h in self.sizes:
+            for a in STORED:
+                for speed in self.speeds:
+                    file = os.path.join(results.directory(name_of(a, speed, h)), "history.csv")
+                    if os.path.exists(file):  # of a run that stopped: until then
+                        histories[a, speed, h] = columns(file)
         reference = columns(os.path.join(REFERENCE, "droplet.csv"))
         self._draw_spread(histories, reference, results.picture("droplet_spread"))
         self._draw_energies(histories, results.picture("droplet_energies"))
@@ -73,7 +73,7 @@ class Droplet:
 
         columns_of_tiles = 4
         sheet = Sheet(columns_of_tiles * TILE[0], 2 * TILE[1])
-        room, height = 5 * RADIUS, 10e-3
+        room, height = 5.5 * RADIUS, 20e-3
         for i, time in enumerate(TIMES):
             left, bottom = (i % columns_of_tiles) * TILE[0], (1 - i // columns_of_tiles) * TILE[1]
             view = sheet.renderer(left, bottom, left + TILE[0], bottom + TILE[1])
@@ -102,14 +102,23 @@ class Droplet:
         styles = dict(zip(self.sizes, ("-", "-") if len(self.sizes) < 3 else (":", "--", "-")))
         for a, colour in ((0, "tab:red"), (-1, "tab:blue")):
             for h in self.sizes:
-                points = [(speed, largest(histories[a, speed, h], "spread")[0]) for speed in self.speeds
-                          if (a, speed, h) in histories]
-                if points:
-                    axis.plot(*zip(*points), styles[h], marker="s" if a == 0 else "^", markersize=4, color=colour,
-                              linewidth=1, label=f"a = {a}, h = {1e3 * float(h):g} mm")
+                known = [speed for speed in self.speeds if (a, speed, h) in histories]
+                reached = [speed for speed in known if recoils(histories[a, speed, h])]
+                at_least = [speed for speed in known if speed not in reached]
+
+                def spread(speeds):
+                    return [largest(histories[a, speed, h], "spread")[0] for speed in speeds]
+
+                marker = "s" if a == 0 else "^"
+                label = f"a = {a}, h = {1e3 * float(h):g} mm"
+                style = dict(color=colour, linewidth=1, markersize=4, label=label)
+                axis.plot(reached, spread(reached), styles[h] + marker, **style)
+                if at_least:
+                    axis.plot(at_least, spread(at_least), marker, markersize=6, markerfacecolor="none", color=colour)
             known = reference["a"] == a
             axis.plot(reference["speed"][known], reference["spread"][known], "o", markersize=9, markerfacecolor="none",
                       color="black", label="Lagrangian finite elements" if a == 0 else None)
+        axis.plot([], [], "^", markersize=6, markerfacecolor="none", color="tab:blue", label="at least: ended too soon")
         axis.set_ylabel("largest spread, Lm / L0", fontsize=8)
         axis.set_xlim(0, 6.3)
         axis.set_ylim(0, None)
@@ -144,6 +153,13 @@ def largest(history, name):
     """(largest radius over R0, its time)."""
     at = numpy.nanargmax(history[name])
     return history[name][at] / RADIUS, history["time"][at]
+
+
+def recoils(history):
+    """Whether the radius that holds 95 % has been larger than it is at the end, and nothing left the domain before."""
+    at = numpy.nanargmax(history["r95"])
+    left = history["outflow.outer.mass.carbopol"][at] / history["mass.carbopol"][0]
+    return history["time"][at] < 0.97 * history["time"][-1] and left < 1e-3
 
 
 def energy(history, name, time):

@@ -14,8 +14,7 @@ TIMES = [40e-6, 70e-6, 110e-6, 200e-6, 300e-6, 490e-6, 700e-6]
 # Name of a run: label, size of cells [mm], corners of a cell, further keys.
 FIRST = {"scheme.order": "1"}
 FULL = {
-    "plate": ("quadrilaterals", 1.25, 4, {}),
-    "plate_middle": ("quadrilaterals", 2.5, 4, {}),
+    "plate": ("quadrilaterals", 2, 4, {}),
     "plate_coarse": ("quadrilaterals", 5, 4, {}),
     "plate_coarse_triangles": ("triangles", 5, 3, {}),
     "plate_first": ("first order, quadrilaterals", 2.5, 4, FIRST),
@@ -86,7 +85,7 @@ class Plate:
 def schlieren(density, spacing):
     """1 where density is uniform, dark where its logarithm changes: waves in air show as well as those in copper."""
     gradient = numpy.hypot(*numpy.gradient(numpy.log(density), spacing))
-    return numpy.exp(-numpy.sqrt(gradient / 4))
+    return numpy.exp(-numpy.sqrt(gradient / 10))
 
 
 def crossings(time, values):

@@ -40,5 +40,6 @@ class Results:
         return self.outcomes[name].exit == 0
 
     def failures(self):
-        """[(run, exit status and last words)]"""
-        return [(name, f"exit status {o.exit}: {o.words}") for name, o in self.outcomes.items() if o.exit != 0]
+        """[(run, exit status and last words, up to where it was)]"""
+        words = {name: outcome.words.split(": volume fraction")[0] for name, outcome in self.outcomes.items()}
+        return [(name, f"exit status {o.exit}: {words[name]}") for name, o in self.outcomes.items() if o.exit != 0]
