@@ -63,7 +63,7 @@ class Grid {
 
 /// Two runs extrapolated to cells of no size.
 std::function<Numbers(const Point&)> reference() {
-  static const Grid coarse(swirl(Cells::quadrilaterals, 96, 2), 96), fine(swirl(Cells::quadrilaterals, 192, 2), 192);
+  static const Grid coarse(swirl(Cells::quadrilaterals, 192, 2), 192), fine(swirl(Cells::quadrilaterals, 384, 2), 384);
   return [](const Point& x) {
     Numbers value = fine.at(x);
     const Numbers less = coarse.at(x);
@@ -75,15 +75,17 @@ std::function<Numbers(const Point&)> reference() {
 }  // namespace
 
 TEST_CASE("a swirl in a prestressed solid converges with second order, to a quarter of the first order's errors") {
-  const Cells cells = GENERATE(Cells::quadrilaterals, Cells::triangles);
+  // On coarse quadrilaterals errors of either sign cancel: from 32 to 64 cells the stress falls with order 1.4, then
+  // with 1.8 and 1.9.
+  const auto [cells, meshes] = GENERATE(
+      table<Cells, std::vector<int>>({{Cells::quadrilaterals, {64, 128, 256}}, {Cells::triangles, {16, 32, 64}}}));
   CAPTURE(static_cast<int>(cells));
   Convergence first({velocity, stress, cobasis_vectors}), second(first);
-  for (const int n : {16, 32, 64}) second.add(swirl(cells, n, 2), reference());
-  first.add(swirl(cells, 32, 1), reference());
-  for (int q = 0; q < 2; ++q) {  // the cobasis is reported
+  for (const int n : meshes) second.add(swirl(cells, n, 2), reference());
+  first.add(swirl(cells, meshes[1], 1), reference());
+  for (int q = 0; q < 2; ++q) {  // the cobasis is reported: what is wrong in it on triangles is not dissipated
     INFO("order 2:\n" << second.report() << "order 1:\n" << first.report() << second.quantities()[q].name << ":");
-    // what is wrong in the cobasis is not dissipated: on quadrilaterals the stress falls with order 1.4 at last
-    CHECK(second.order(q) >= (q == 1 && cells == Cells::quadrilaterals ? 1.4 : 1.8));
+    CHECK(second.order(q) >= 1.8);
     CHECK(second.error(q, 1) <= first.error(q, 0) / 4);
   }
 }
