@@ -1,5 +1,6 @@
 // Mesh and case in, fields for ParaView out. Exit status: 0 done; 2 the input is wrong; 3 the run turned unphysical;
 // 4 the system failed.
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -45,6 +46,7 @@ void execute(const cobasis::CommandLine& command, const cobasis::Mpi& mpi) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error with a message
   const cobasis::Mpi mpi(argc, argv);
   const auto fail = [&](int status, const std::string& what) {
     if (mpi.root()) std::cerr << what << '\n';

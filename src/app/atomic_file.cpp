@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "math/errors.hpp"
@@ -38,11 +39,9 @@ void sync_directory_of(const std::string& path) {
   ::close(descriptor);
 }
 
-}  // namespace
-
-void write_atomically(const std::string& path, std::string_view bytes) {
+void write_part(const std::string& path, std::string_view bytes, int flags) {
   const std::string part = path + ".part";
-  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
   if (descriptor < 0) fail(path, errno);
   int error = write_all(descriptor, bytes);
   if (error == 0 && ::fsync(descriptor) != 0) error = errno;
@@ -54,6 +53,12 @@ void write_atomically(const std::string& path, std::string_view bytes) {
   }
   sync_directory_of(path);
 }
+
+}  // namespace
+
+void write_atomically(const std::string& path, std::string_view bytes) { write_part(path, bytes, O_CREAT | O_TRUNC); }
+
+void finish_atomically(const std::string& path, std::string_view first_bytes) { write_part(path, first_bytes, 0); }
 
 void make_writable_directory(const std::string& path, const std::string& probe_name) {
   std::error_code error;
@@ -72,12 +77,29 @@ void make_writable_directory(const std::string& path, const std::string& probe_n
 RowFile::RowFile(const std::string& path, std::string_view header) : path_(path) {
   write_atomically(path, header);
   size_ = static_cast<std::int64_t>(header.size());
+  checksum_.add(header);
   descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   if (descriptor_ < 0) fail(path_, errno);
 }
 
+RowFile::RowFile(const std::string& path, std::int64_t size, std::uint64_t checksum) : path_(path), size_(size) {
+  std::ifstream file(path, std::ios::binary);
+  std::string rows(static_cast<std::size_t>(size), '\0');
+  if (!file.read(rows.data(), size))
+    throw InputError(
+        fmt::format("{}: this table of the run is missing or was cut off: its first {} bytes are needed", path, size));
+  checksum_.add(rows);
+  if (checksum_.value() != checksum)
+    throw InputError(fmt::format("{}: this table of the run has been changed in its first {} bytes", path, size));
+  descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (descriptor_ < 0 || ::ftruncate(descriptor_, size) != 0) fail(path_, errno);
+}
+
 RowFile::RowFile(RowFile&& other) noexcept
-    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_) {}
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      size_(other.size_),
+      checksum_(other.checksum_) {}
 
 RowFile::~RowFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -90,6 +112,11 @@ void RowFile::append(std::string_view row) {
     fail(path_, error);
   }
   size_ += static_cast<std::int64_t>(row.size());
+  checksum_.add(row);
+}
+
+void RowFile::flush() {
+  if (::fsync(descriptor_) != 0) fail(path_, errno);
 }
 
 void RowFile::close() {

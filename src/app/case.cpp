@@ -18,6 +18,20 @@ TomlTable changed_document(const std::string& file, const CaseOverrides& overrid
   return document;
 }
 
+/// Numbers as such, so that 1 and 1.0 are the same.
+void list_keys(const TomlValue& value, const std::string& name, std::map<std::string, std::string>& keys) {
+  if (const auto* table = std::get_if<TomlTable>(&value.data)) {
+    for (const TomlEntry& entry : *table)
+      list_keys(entry.value, name.empty() ? entry.key : name + "." + entry.key, keys);
+  } else if (const auto* array = std::get_if<TomlArray>(&value.data)) {
+    for (std::size_t i = 0; i < array->size(); ++i) list_keys((*array)[i], fmt::format("{}.{}", name, i), keys);
+  } else if (std::holds_alternative<std::int64_t>(value.data) || std::holds_alternative<double>(value.data)) {
+    keys[name] = fmt::format("{}", number_of(value));
+  } else {
+    keys[name] = description(value);
+  }
+}
+
 void read_mesh_keys(const CaseTable& top, CaseReading& reading) {
   Setup& setup = reading.setup;
   const auto mesh = top.text("mesh");
@@ -56,6 +70,14 @@ void read_top_level(const CaseTable& top, CaseReading& reading) {
   setup.gravity = top.point("gravity").value_or(setup.gravity);
   setup.alpha_min = top.number("alpha_min").value_or(setup.alpha_min);
   setup.max_steps = top.integer("max_steps");
+  if (auto every = top.table("checkpoint_every", keys_of("checkpoint_every"))) {
+    every->at_most_one({"steps", "minutes"});
+    setup.checkpoint_every.emplace();
+    setup.checkpoint_every->steps = every->integer("steps");
+    setup.checkpoint_every->minutes = every->number("minutes").value_or(setup.checkpoint_every->minutes);
+  } else if (const TomlEntry* steps = top.entry("checkpoint_every")) {
+    setup.checkpoint_every = {static_cast<std::int64_t>(number_of(steps->value)), {}};
+  }
 }
 
 /// What `accuracy` stands for: choices on the measured front of error against time, see cases/README.md.
@@ -130,6 +152,7 @@ Setup read_case(const std::string& file, const CaseOverrides& overrides) {
   const TomlTable document = changed_document(file, overrides);
   CaseReading reading{{}, Mistakes(file), {}};
   reading.setup.case_file = file;
+  list_keys({document, {}}, "", reading.setup.keys);
   const CaseTable top(document, Place{1, {}}, keys_of("the case"), reading.mistakes);
   read_top_level(top, reading);
   read_mesh_keys(top, reading);

@@ -40,6 +40,8 @@ std::string type_of(const KeyInfo& info) {
       return "a table";
     case KeyKind::tables:
       return "an array of tables, [[...]]";
+    case KeyKind::integer_or_table:
+      return "a whole number; or a table";
     case KeyKind::word_or_table:
       return fmt::format("{}; or a table with one of these as type", words);
     case KeyKind::number_or_word:

@@ -109,6 +109,12 @@ std::vector<KeyTable> top_level() {
          .range = from(1, 1e15),
          .fallback = "no limit",
          .meaning = "the run ends after so many steps"},
+        {.key = "checkpoint_every",
+         .kind = KeyKind::integer_or_table,
+         .unit = "steps",
+         .range = from(1, 1e15),
+         .fallback = fmt::format("{{ minutes = {} }}", CheckpointEvery{}.minutes),
+         .meaning = "checkpoints for --restart, and one at the end if this is given"},
         {.key = "scheme", .kind = KeyKind::table, .fallback = "see there", .meaning = "numerical method"},
         {.key = "phase",
          .kind = KeyKind::table,
@@ -132,6 +138,18 @@ std::vector<KeyTable> top_level() {
         {.key = "probe", .kind = KeyKind::tables, .fallback = "none", .meaning = "fields at points over time"},
         {.key = "slice", .kind = KeyKind::tables, .fallback = "none", .meaning = "fields where planes cut the mesh"},
         {.key = "integral", .kind = KeyKind::tables, .fallback = "none", .meaning = "columns of history.csv"}}});
+  tables.push_back({"checkpoint_every",
+                    "one of",
+                    {{.key = "steps",
+                      .kind = KeyKind::integer,
+                      .range = from(1, 1e15),
+                      .fallback = "minutes",
+                      .meaning = "after so many"},
+                     {.key = "minutes",
+                      .unit = "min",
+                      .range = positive,
+                      .fallback = fmt::format("{}", CheckpointEvery{}.minutes),
+                      .meaning = "of the wall clock, since the last one"}}});
   tables.push_back(
       {"[mesh_parameters]", "", {{.key = "NAME", .meaning = "a number the .geo names in DefineConstant"}}});
   tables.push_back(

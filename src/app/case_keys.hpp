@@ -24,7 +24,8 @@ enum class KeyKind {
   vector_field,  ///< 2 or 3 numbers or expressions
   matrix,        ///< 3 x 3 numbers
   table,
-  tables,         ///< [[...]]
+  tables,  ///< [[...]]
+  integer_or_table,
   word_or_table,  ///< one of KeyInfo::words, or a table with it as type
   number_or_word,
 };

@@ -56,6 +56,8 @@ class ValueCheck {
         return std::holds_alternative<TomlTable>(value.data) || refuse(value);
       case KeyKind::tables:
         return tables(value);
+      case KeyKind::integer_or_table:
+        return std::holds_alternative<TomlTable>(value.data) || number(value, true);
       case KeyKind::word_or_table:
         return std::holds_alternative<TomlTable>(value.data) || word(value);
       case KeyKind::number_or_word:

@@ -79,6 +79,7 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
   CLI::App* run = add("run", "compute a case", "CASE", "case file (TOML)");
   run->add_option("--output", line.overrides.output, "output directory instead of the case's")->type_name("DIR");
   run->add_flag("--quiet", line.quiet, "no progress, only the last line");
+  run->add_flag("--restart", line.restart, "go on from the newest checkpoint in the output directory");
   add_set(run);
   CLI::App* check = add("check", "validate a case and its mesh, and say what the scene requires", "CASE", "case file");
   add_set(check);

@@ -24,6 +24,7 @@ struct CommandLine {
   bool trust_geo = false;  ///< let a .geo run commands and read other files
   bool quiet = false;
   std::string like;  ///< of make
+  bool restart = false;  ///< from the newest checkpoint
   StudyOptions study;
   std::string text;
 };

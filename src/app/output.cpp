@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cctype>
 #include <filesystem>
 #include <limits>
 #include <set>
-#include <string_view>
 
 #include "app/mixture.hpp"
 #include "app/output_fields.hpp"
@@ -27,24 +25,6 @@ void check_table_names(const Setup& setup) {
   };
   for (const LineSetup& line : setup.lines) check("line", line.name);
   for (const ProbeSetup& probe : setup.probes) check("probe", probe.name);
-}
-
-/// The rest of the text after the prefix and the digits behind it; the text itself if it does not start like this.
-std::string_view after_number(std::string_view text, std::string_view prefix) {
-  if (!text.starts_with(prefix)) return text;
-  const std::string_view rest = text.substr(prefix.size());
-  const auto end = std::find_if_not(rest.begin(), rest.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-  return end == rest.begin() ? text : rest.substr(static_cast<std::size_t>(end - rest.begin()));
-}
-
-template <class Condition>
-void remove_files(const std::filesystem::path& directory, const Condition& condition) {
-  std::error_code ignored;  // what cannot be removed is in nobody's way
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(directory, ignored)) {
-    if (condition(entry.path().filename().string())) files.push_back(entry.path());
-  }
-  for (const auto& file : files) std::filesystem::remove(file, ignored);
 }
 
 }  // namespace
@@ -123,7 +103,7 @@ void Output::write_series(Series& series, const VtuWriter& vtu, const Snapshot& 
     for (int rank = 0; rank < mpi_.size(); ++rank) pieces.push_back(piece(rank));
     write_atomically(path(series.files.back().second), pvtu(fields, pieces, setup_.output.float64));
     write_atomically(path(series.name + ".pvd"), pvd(series.files));
-    if (series.files.size() == 1) remove_former_files(series);
+    if (series.files.size() == 1) remove_files_from(series, 1, mpi_.size());
     Units units;
     for (const OutputField& field : fields) {
       for (std::size_t c = 0; c < field.values.size(); ++c) units.emplace_back(field.column(c), field.unit);
@@ -134,8 +114,7 @@ void Output::write_series(Series& series, const VtuWriter& vtu, const Snapshot& 
 
 void Output::write_line(Table& line, const Snapshot& snapshot, const std::string& number) {
   const Samples samples = sample(line, snapshot);
-  if (line.files.empty() && mpi_.root())
-    remove_files(path("lines"), [&](const std::string& name) { return after_number(name, line.name + "_") == ".csv"; });
+  if (line.files.empty() && mpi_.root()) remove_files_from(line, 0);
   line.files.emplace_back(snapshot.time, fmt::format("lines/{}_{}.csv", line.name, number));
   together([&] {
     if (!mpi_.root()) return;
@@ -152,10 +131,14 @@ void Output::write_line(Table& line, const Snapshot& snapshot, const std::string
     }
     write_atomically(path(line.files.back().second), text);
     write_atomically(path(line.name + ".csv"), text);
-    // ParaView takes the reader from the second last extension; the short name is for people and programs.
-    for (const char* extension : {".series", ".csv.series"})
-      write_atomically(path(line.name + extension), file_series(line.files));
+    write_list_of(line);
   });
+}
+
+/// ParaView takes the reader from the second last extension; the short name is for people and programs.
+void Output::write_list_of(const Table& line) const {
+  for (const char* extension : {".series", ".csv.series"})
+    write_atomically(path(line.name + extension), file_series(line.files));
 }
 
 bool Output::needs_fields_for_history() const {
@@ -183,8 +166,8 @@ void Output::history(const Snapshot& snapshot, const std::vector<Column>& totals
     }
     for (const IntegralSetup& integral : setup_.integrals) columns.emplace_back(integral.name, integral.unit);
     row.insert(row.end(), latest_integrals_.begin(), latest_integrals_.end());
+    add_units("history", columns);
     if (!history_) {
-      add_units("history", columns);
       std::vector<std::string> header;
       for (const auto& [name, unit] : columns) header.push_back(name);
       history_.emplace(path("history.csv"), csv_row(header));
@@ -234,34 +217,6 @@ void Output::add_units(const std::string& where, const Units& units) {
   std::string text = "where,column,unit\n";
   for (const auto& [name, some_rows] : units_) text += some_rows;
   write_atomically(path("units.csv"), text);
-}
-
-void Output::remove_former_files(const Series& series) const {
-  remove_files(path(series.folder), [&](const std::string& name) {
-    std::string_view rest = after_number(name, series.name + "_");
-    if (rest == ".pvtu") return name != series.name + "_0000.pvtu";
-    if (after_number(rest, "_") != ".vtu") return false;
-    const std::string rank(rest.substr(1, rest.find('.') - 1));
-    const bool just_written = name.starts_with(series.name + "_0000_") && std::stoi(rank) < mpi_.size();
-    return !just_written;
-  });
-}
-
-void Output::together(const std::function<void()>& action) const {
-  std::string error;
-  try {
-    action();
-  } catch (const std::exception& caught) {
-    error = caught.what();
-  }
-  const auto failed = static_cast<int>(mpi_.min(error.empty() ? mpi_.size() : mpi_.rank()));
-  if (failed == mpi_.size()) return;
-  std::vector<std::int64_t> letters;
-  if (mpi_.rank() == failed) letters.assign(error.begin(), error.end());
-  letters = mpi_.gather(std::span<const std::int64_t>(letters));
-  std::string text(letters.begin(), letters.end());
-  mpi_.broadcast(text);
-  throw SystemError(text);
 }
 
 }  // namespace cobasis

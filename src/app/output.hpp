@@ -13,9 +13,11 @@
 #include "app/atomic_file.hpp"
 #include "app/integrals.hpp"
 #include "app/sampler.hpp"
+#include "app/together.hpp"
 #include "app/vtu_writer.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/mpi.hpp"
+#include "solver/keeper.hpp"
 #include "solver/setup.hpp"
 #include "solver/snapshot.hpp"
 
@@ -43,6 +45,12 @@ class Output {
   /// needs_fields_for_history(). `totals`: the same on all ranks, the same names each time.
   void history(const Snapshot& snapshot, const std::vector<Column>& totals);
   void finish();
+  /// What has been written so far. Where it is read, tables go on behind their rows, and what an interrupted run has
+  /// written after it is taken away. Throws InputError, on all ranks together, where that is no longer there.
+  void keep(Keeper& keeper);
+  bool has_written(double time) const { return !fields_.files.empty() && fields_.files.back().first == time; }
+  /// Of the latest fields: the path of the .pvtu.
+  std::string latest_fields() const { return path(fields_.files.back().second); }
 
   bool needs_alpha_for_history() const { return !setup_.integrals.empty() || !setup_.probes.empty(); }
   bool needs_fields_for_history() const;
@@ -80,12 +88,15 @@ class Output {
   /// The snapshot holds the cells that the writer draws, in order.
   void write_series(Series& series, const VtuWriter& vtu, const Snapshot& snapshot);
   void write_line(Table& line, const Snapshot& snapshot, const std::string& number);
+  void write_list_of(const Table& line) const;
   /// Once per place, of: fields (VTU files, lines, probes), history.
   void add_units(const std::string& where, const Units& units);
-  /// All but the first output just written.
-  void remove_former_files(const Series& series) const;
-  /// Runs the action on every rank; what fails on one becomes SystemError on all.
-  void together(const std::function<void()>& action) const;
+  /// Of another run from this number on; and pieces of the first output from this rank on.
+  void remove_files_from(const Series& series, std::size_t number, int rank_of_first) const;
+  void remove_files_from(const Table& line, std::size_t number) const;
+  std::string written() const;
+  void go_on_after(const std::string& written);
+  void together(const std::function<void()>& action) const { do_together(mpi_, action); }
 
   Setup setup_;
   const Mesh& mesh_;

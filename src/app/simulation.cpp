@@ -7,8 +7,10 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 #include "app/case.hpp"
+#include "app/checkpoint.hpp"
 #include "app/output.hpp"
 #include "app/progress.hpp"
 #include "math/errors.hpp"
@@ -135,7 +137,8 @@ Scene open_scene(const Setup& setup, bool trust_geo, int splits, const Mpi& mpi)
   return scene;
 }
 
-RunResult run_scene(const Scene& scene, const Mpi& mpi, Speech speech) {
+RunResult run_scene(const Scene& scene, const Mpi& mpi, const RunOptions& options) {
+  const Speech speech = options.speech;
   const Timer timer;
   const Setup& setup = scene.setup;
   Solver solver(setup, scene.geometry, scene.mesh, mpi);
@@ -185,15 +188,47 @@ RunResult run_scene(const Scene& scene, const Mpi& mpi, Speech speech) {
     result.history_seconds += writing.seconds();
   };
 
-  const std::vector<Column> initial = solver.totals();
-  write_due(false);
+  std::vector<Column> initial = solver.totals();
+  double before = 0;  // time at the beginning of the last step
   const auto done = [&] {
     return solver.time() >= setup.end_time || (setup.max_steps && solver.step() >= *setup.max_steps);
   };
-  while (!done()) {
-    solver.advance(next_output());
-    write_due(done());
-    progress.update({solver.time(), setup.end_time, solver.step(), timer.seconds(), cost()});
+  // A checkpoint is taken after a step and before its outputs, so that those of a run that ends early, and would not
+  // be there had it gone on, are not in it.
+  const auto keep = [&](Keeper& keeper) {
+    solver.keep(keeper);
+    output.keep(keeper);
+    keeper.number("time_before", before);
+    keeper.whole_number("rows", result.rows);
+    for (Column& column : initial) keeper.number("initial." + column.name, column.value);
+  };
+  std::optional<Checkpoints> checkpoints;
+  if (options.checkpoints) checkpoints.emplace(setup, scene.geometry, scene.mesh, mpi);
+  if (options.restart) {
+    checkpoints->restore(keep);
+    outputs.due(before);
+    for (Schedule& slice : slices) slice.due(before);
+    rows.due(before);
+    if (mpi.root() && speech == Speech::all)
+      std::cout << fmt::format("restart from '{}', step {}, time {:.6g} s\n", checkpoints->latest(), solver.step(),
+                               solver.time());
+  }
+  write_due(options.restart && done());
+  if (checkpoints && !options.restart) checkpoints->begin();
+  try {
+    while (!done()) {
+      before = solver.time();
+      solver.advance(next_output());
+      if (checkpoints) checkpoints->update(keep, solver.step(), done());
+      write_due(done());
+      progress.update({solver.time(), setup.end_time, solver.step(), timer.seconds(), cost()});
+    }
+  } catch (const Unphysical& error) {
+    if (!output.has_written(solver.time())) output.write(solver.snapshot());
+    std::string text = fmt::format("{}; the state before this step is in '{}'", error.what(), output.latest_fields());
+    if (checkpoints && !checkpoints->latest().empty())
+      text += fmt::format("; the last checkpoint is '{}'", checkpoints->latest());
+    throw Unphysical(text);
   }
   progress.finish({solver.time(), setup.end_time, solver.step(), timer.seconds(), cost()});
   output.finish();
@@ -236,7 +271,9 @@ RunResult run_scene(const Scene& scene, const Mpi& mpi, Speech speech) {
 
 void run_case(const CommandLine& command, const Mpi& mpi) {
   const Setup setup = read_case(command.file, command.overrides);
-  run_scene(open_scene(setup, command.trust_geo, 0, mpi), mpi, command.quiet ? Speech::last_line : Speech::all);
+  run_scene(
+      open_scene(setup, command.trust_geo, 0, mpi), mpi,
+      {.speech = command.quiet ? Speech::last_line : Speech::all, .checkpoints = true, .restart = command.restart});
 }
 
 void check_case(const CommandLine& command, const Mpi& mpi) {

@@ -31,6 +31,12 @@ enum class Speech {
   nothing
 };
 
+struct RunOptions {
+  Speech speech = Speech::all;
+  bool checkpoints = false;
+  bool restart = false;  ///< from the newest of them
+};
+
 /// Seconds are this rank's, of the wall clock.
 struct RunResult {
   std::int64_t steps = 0, rows = 0;  ///< rows: of the history
@@ -38,8 +44,9 @@ struct RunResult {
   std::vector<Column> values;  ///< at the end: integrals and, on rank 0, probes
 };
 
-/// Computes the scene and writes its outputs. Collective. Throws InputError, SystemError, Unphysical.
-RunResult run_scene(const Scene& scene, const Mpi& mpi, Speech speech);
+/// Computes the scene and writes its outputs; with the fields before the step, if one turns unphysical. Collective.
+/// Throws InputError, SystemError, Unphysical.
+RunResult run_scene(const Scene& scene, const Mpi& mpi, const RunOptions& options);
 
 /// `cobasis run`. Collective. Throws InputError, SystemError, Unphysical.
 void run_case(const CommandLine& command, const Mpi& mpi);

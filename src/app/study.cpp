@@ -108,7 +108,7 @@ void study_case(const CommandLine& command, const Mpi& mpi) {
       run.predicted_core_seconds = mpi.size() * model.seconds(model.size(run.mesh.h, run.cells));
     }
     if (speaks) std::cout << announcement(run, i + 1, meshes.size()) << std::flush;
-    runs.push_back(run_scene(scenes[i], mpi, command.quiet ? Speech::nothing : Speech::progress));
+    runs.push_back(run_scene(scenes[i], mpi, {.speech = command.quiet ? Speech::nothing : Speech::progress}));
     costs.push_back(measured(meshes[i], scenes[i], runs.back()));
     scenes[i].mesh = {};
     run.steps = static_cast<double>(runs.back().steps);

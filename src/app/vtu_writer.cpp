@@ -122,6 +122,10 @@ VtuWriter::~VtuWriter() = default;
 std::string VtuWriter::vtu(const std::vector<OutputField>& fields, double time, std::int64_t step) const {
   vtkNew<vtkUnstructuredGrid> grid;
   grid->CopyStructure(grid_->vtk);
+  grid->GetPoints()
+      ->GetData()
+      ->GetInformation()
+      ->Clear();  // ranges that writing leaves there would be written next time
   for (const OutputField& field : fields) {
     if (grid_->float64) {
       add_cell_data<vtkDoubleArray>(*grid, field);

@@ -25,18 +25,7 @@ void Caution::spread(const Mesh& mesh, std::int64_t step, int failed) {
   for (const std::int32_t cell : noted_) until_[cell] = until;
   noted_.clear();
   for (int ring = 0; ring <= rings; ++ring) {
-    for (std::size_t i = 0; i < mesh.neighbours.size(); ++i) {
-      std::vector<double>& out = exchange_.outgoing(i);
-      out.clear();
-      for (const std::int32_t cell : mesh.neighbours[i].send) out.push_back(static_cast<double>(until_[cell]));
-    }
-    exchange_.start();
-    exchange_.finish();
-    for (std::size_t i = 0; i < mesh.neighbours.size(); ++i) {
-      const double* in = exchange_.incoming(i).data();
-      for (std::int32_t j = 0; j < mesh.neighbours[i].receive_count; ++j)
-        until_[mesh.neighbours[i].receive_first + j] = static_cast<std::int64_t>(*in++);
-    }
+    tell_halo(mesh);
     if (ring == rings) break;
     const std::vector<std::int64_t> before = until_;
     for (std::int32_t f = 0; f < mesh.first_boundary_face(); ++f) {
@@ -46,6 +35,22 @@ void Caution::spread(const Mesh& mesh, std::int64_t step, int failed) {
     }
   }
   until_any_ = until;
+}
+
+/// Halo cells are treated as their owners say.
+void Caution::tell_halo(const Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.neighbours.size(); ++i) {
+    std::vector<double>& out = exchange_.outgoing(i);
+    out.clear();
+    for (const std::int32_t cell : mesh.neighbours[i].send) out.push_back(static_cast<double>(until_[cell]));
+  }
+  exchange_.start();
+  exchange_.finish();
+  for (std::size_t i = 0; i < mesh.neighbours.size(); ++i) {
+    const double* in = exchange_.incoming(i).data();
+    for (std::int32_t j = 0; j < mesh.neighbours[i].receive_count; ++j)
+      until_[mesh.neighbours[i].receive_first + j] = static_cast<std::int64_t>(*in++);
+  }
 }
 
 void Caution::tell(Fields& fields, std::int64_t step) {

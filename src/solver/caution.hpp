@@ -5,6 +5,7 @@
 #include "mesh/mpi.hpp"
 #include "mesh/neighbour_exchange.hpp"
 #include "solver/field.hpp"
+#include "solver/keeper.hpp"
 
 namespace cobasis {
 
@@ -19,8 +20,11 @@ class Caution {
   void spread(const Mesh& mesh, std::int64_t step, int failed);
   /// Says in Fields::cautious which cells are treated so in this step.
   void tell(Fields& fields, std::int64_t step);
+  void keep(Keeper& keeper, const Mesh& mesh, std::int64_t step);
 
  private:
+  void tell_halo(const Mesh& mesh);
+
   std::vector<std::int32_t> noted_;
   std::vector<std::int64_t> until_;  // per owned and halo cell: the first step without caution
   std::int64_t until_any_ = 0;       // the largest of these

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mesh/neighbour_exchange.hpp"
+#include "solver/keeper.hpp"
 #include "solver/kernels.hpp"
 
 namespace cobasis {
@@ -26,6 +27,7 @@ class Reconstruction {
   /// would have been inadmissible; of this rank.
   std::int64_t reconstructed() const { return reconstructed_; }
   std::int64_t fallen() const { return fallen_; }
+  void keep(Keeper& keeper);  ///< these
 
  private:
   struct Group {

@@ -13,6 +13,7 @@
 #include "mesh/neighbour_exchange.hpp"
 #include "solver/faces.hpp"
 #include "solver/field.hpp"
+#include "solver/keeper.hpp"
 #include "solver/remote_volumes.hpp"
 
 namespace cobasis {
@@ -49,6 +50,7 @@ class Redistribution {
   const std::vector<std::pair<std::int32_t, int>>& changed() const { return changed_; }
 
   const RedistributionCounters& counters() const { return counters_; }
+  void keep(Keeper& keeper);  ///< these
 
  private:
   static constexpr int most_components = Layout<Space, Kind::solid>::n_conserved;

@@ -186,8 +186,15 @@ struct Scheme {
   bool low_mach = false;
 };
 
+/// Steps, or else minutes of the wall clock.
+struct CheckpointEvery {
+  std::optional<std::int64_t> steps;
+  double minutes = 10;
+};
+
 struct Setup {
   std::string case_file;
+  std::map<std::string, std::string> keys;  ///< all that are given, dotted, and their values as text
   std::string title;
   std::string mesh_file;  ///< resolved path
   std::map<std::string, double> mesh_parameters;
@@ -198,6 +205,7 @@ struct Setup {
   Point gravity{0, 0, 0};  ///< [m/s^2]
   double alpha_min = 0;    ///< 0: absent phases are absent; > 0: traces everywhere
   std::optional<std::int64_t> max_steps;
+  std::optional<CheckpointEvery> checkpoint_every;
   std::vector<PhaseSetup> phases;
   Contact default_contact;
   std::map<std::pair<int, int>, Contact> contacts;        ///< by phase indices, smaller first

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "mesh/neighbour_exchange.hpp"
+#include "solver/keeper.hpp"
 #include "solver/kernels.hpp"
 #include "solver/plane_cut.hpp"
 
@@ -32,6 +33,8 @@ class SharpInterface {
   /// Whether a small volume fraction is what the interface makes there, and not what it has left behind: whether a
   /// neighbour's plane, moved on by the step, cuts off the same of the cell, or no neighbour is cut.
   bool expects(const Fields& fields, int k, std::int32_t cell, double dt) const;
+  /// The normals from which those of the next step are found, and which cells were cut once.
+  void keep(Keeper& keeper);
 
  private:
   struct Cell {
@@ -55,6 +58,7 @@ class SharpInterface {
   bool knows_plane(std::int32_t cell) const;
   bool valid(int k, std::int32_t cell) const { return cells_[k][cell].step == step_; }
   Point gradient(const Faces& faces, const Fields& fields, int k, std::int32_t cell) const;
+  const CellCorners& find_corners(std::int32_t cell);
   void put_plane(const Fields& fields, int k, std::int32_t cell, const Point& n);
   Point mean_normal(int k, std::int32_t cell) const;
   static int hops_of(CellType type);

@@ -54,12 +54,17 @@ bool SharpInterface::is_cut(const Fields& fields, int k, std::int32_t cell) cons
   return alpha > 0 && alpha < 1;
 }
 
-void SharpInterface::put_plane(const Fields& fields, int k, std::int32_t cell, const Point& n) {
+/// From now on they are known.
+const CellCorners& SharpInterface::find_corners(std::int32_t cell) {
   if (corners_at_[cell] < 0) {
     corners_at_[cell] = static_cast<std::int32_t>(corners_.size());
     corners_.push_back(corners_of(mesh_, cell));
   }
-  const CellCorners& corners = corners_[corners_at_[cell]];
+  return corners_[corners_at_[cell]];
+}
+
+void SharpInterface::put_plane(const Fields& fields, int k, std::int32_t cell, const Point& n) {
+  const CellCorners& corners = find_corners(cell);
   Cell& c = cells_[k][cell];
   c.plane = {n, place_plane(corners, n, fields.phases[k].alpha[cell])};
   c.cut = section(corners, c.plane);
@@ -291,11 +296,7 @@ void SharpInterface::adopt(Fields& fields, int k, std::int32_t cell, std::int32_
       borrow(fields, phase, cell, from);
   borrow_missing(fields, cell);
   c = {plane, {}, speed, 1, ring, step_};
-  if (corners_at_[cell] < 0) {
-    corners_at_[cell] = static_cast<std::int32_t>(corners_.size());
-    corners_.push_back(corners_of(mesh_, cell));
-  }
-  const CellCorners& corners = corners_[corners_at_[cell]];
+  const CellCorners& corners = find_corners(cell);
   const double bound = place_plane(corners, plane.n, fields.phases[k].alpha[cell]);
   c.plane.d = fields.phases[k].alpha[cell] > 0 ? std::max(c.plane.d, bound) : std::min(c.plane.d, bound);
 }

@@ -15,6 +15,7 @@
 #include "solver/caution.hpp"
 #include "solver/initial_condition.hpp"
 #include "solver/interfaces.hpp"
+#include "solver/keeper.hpp"
 #include "solver/kernels.hpp"
 #include "solver/reconstruction.hpp"
 #include "solver/redistribution.hpp"
@@ -66,7 +67,7 @@ class Solver {
   Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mpi& mpi, SolverOptions options = {});
 
   /// One step, not beyond the time `until` [s], which is hit exactly; returns its length. Collective. Throws
-  /// Unphysical.
+  /// Unphysical, with the state as before the step.
   double advance(double until);
 
   double time() const { return time_; }
@@ -88,6 +89,9 @@ class Solver {
   /// Conserved totals of the domain and what left it through each boundary: mass, momentum, energy of each phase, and
   /// the volume of each. Same bits for any number of ranks. Collective.
   std::vector<Column> totals() const;
+  /// All that the steps to come depend on, and what the run tells of itself: a solver of the same case and mesh that
+  /// reads it goes on with the same bits, on any number of ranks. Between steps. Collective.
+  void keep(Keeper& keeper);
 
  private:
   void allocate();
@@ -98,6 +102,8 @@ class Solver {
   void take_step(double until);
   void save();
   void restore();
+  void keep_derived(Keeper& keeper);
+  void derive_primitives(int k);
   void note_troubled(std::int32_t cell, int k);
   double sweep_first_order();
   double sweep_centred(double until);
@@ -121,7 +127,7 @@ class Solver {
   void mend(std::vector<std::pair<std::int32_t, int>>& inadmissible);
   void note_unphysical(int k, std::int32_t cell);
   void find_undefined_speed();
-  [[noreturn]] void stop_unphysical() const;
+  std::string unphysical_report() const;
 
   Setup setup_;
   Geometry geometry_;

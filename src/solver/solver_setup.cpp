@@ -317,7 +317,7 @@ void Solver::set_initial_state() {
     for (const std::int32_t cell : bad_)
       if (cell < mesh_.n_owned) note_unphysical(k, cell);
   }
-  if (mpi_.any(!unphysical_.empty())) stop_unphysical();
+  if (mpi_.any(!unphysical_.empty())) throw Unphysical(unphysical_report());
   if (fields_.multiphase()) set_reference_states(initial);
 }
 

@@ -299,7 +299,8 @@ void Solver::find_undefined_speed() {
   }
 }
 
-void Solver::stop_unphysical() const {
+/// The same on all ranks. Collective.
+std::string Solver::unphysical_report() const {
   const bool own = !unphysical_.empty();
   const double first = mpi_.min(own ? static_cast<double>(unphysical_id_) : infinity);
   const bool speaks = own && static_cast<double>(unphysical_id_) == first;
@@ -313,7 +314,7 @@ void Solver::stop_unphysical() const {
     }
   }
   mpi_.broadcast(text);
-  throw Unphysical(text);
+  return text;
 }
 
 }  // namespace cobasis

@@ -14,6 +14,7 @@
 #include "mesh/neighbour_exchange.hpp"
 #include "solver/faces.hpp"
 #include "solver/field.hpp"
+#include "solver/keeper.hpp"
 
 namespace cobasis {
 
@@ -56,6 +57,7 @@ class VolumeExchange {
   const ExchangeCounters& counters() const { return counters_; }
   /// Volume that each owned cell has got rid of so far [m^3].
   const std::vector<double>& volume_of_cell() const { return volume_of_cell_; }
+  void keep(Keeper& keeper);  ///< these and the counters
 
  private:
   enum class Answer { refused, granted, dust };
