@@ -72,6 +72,8 @@ void read_top_level(const CaseTable& top, CaseReading& reading) {
   setup.max_steps = top.integer("max_steps");
   if (auto every = top.table("checkpoint_every", keys_of("checkpoint_every"))) {
     every->at_most_one({"steps", "minutes"});
+    if (!every->has("steps") && !every->has("minutes"))
+      every->mistakes().add(every->where(), "neither steps nor minutes; allowed: one of them");
     setup.checkpoint_every.emplace();
     setup.checkpoint_every->steps = every->integer("steps");
     setup.checkpoint_every->minutes = every->number("minutes").value_or(setup.checkpoint_every->minutes);

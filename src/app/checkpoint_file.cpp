@@ -89,8 +89,13 @@ CheckpointFileWriter::CheckpointFileWriter(std::string path) : path_(std::move(p
   H5Pset_userblock(creation, head_size);
   H5Pset_obj_track_times(creation, false);
   file_ = H5Fcreate(part_.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
+  const std::string reason = file_ >= 0 ? std::string() : reason_of_failure();
   H5Pclose(creation);
-  check(file_ >= 0);
+  if (file_ < 0) {
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+    throw SystemError(fmt::format("cannot write '{}': {}", path_, reason));
+  }
   values_ = H5Pcreate(H5P_DATASET_CREATE);
   H5Pset_obj_track_times(values_, false);
 }
@@ -100,10 +105,6 @@ CheckpointFileWriter::~CheckpointFileWriter() {
   if (file_ >= 0) H5Fclose(file_);
   std::error_code ignored;
   if (!part_.empty()) std::filesystem::remove(part_, ignored);
-}
-
-void CheckpointFileWriter::check(bool succeeded) const {
-  if (!succeeded) throw SystemError(fmt::format("cannot write '{}': {}", path_, reason_of_failure()));
 }
 
 void CheckpointFileWriter::write(const std::string& name, std::span<const double> values, std::size_t columns) {
@@ -131,9 +132,8 @@ void CheckpointFileWriter::write(const std::string& name, const std::string& tex
 }
 
 void CheckpointFileWriter::finish() {
-  const bool closed = H5Fclose(file_) >= 0;
-  file_ = -1;
-  check(closed);
+  const bool closed = H5Fclose(std::exchange(file_, -1)) >= 0;
+  if (!closed) throw SystemError(fmt::format("cannot write '{}': {}", path_, reason_of_failure()));
   const Content content = content_of(part_);
   finish_atomically(path_, head_of(content.size, content.checksum));
   part_.clear();

@@ -25,7 +25,6 @@ class CheckpointFileWriter {
   void finish();
 
  private:
-  void check(bool succeeded) const;
   std::string path_, part_;
   std::int64_t file_ = -1, values_ = -1;
 };

@@ -136,7 +136,7 @@ void write(const fs::path& file, const std::string& bytes) { std::ofstream(file,
 TEST_CASE("a run that is interrupted and goes on leaves the bytes of one that was not, also on other ranks") {
   for (const std::string interface : {"diffuse", "compressed"}) {
     CAPTURE(interface);
-    check_restarts("ball.toml", "scheme.interface=" + interface, {{11, 1}, {12, 1}, {40, 1}}, 1);
+    check_restarts("ball.toml", "scheme.interface=" + interface, {{11, 1}, {40, 1}}, 1);
     check_restarts("ball.toml", "scheme.interface=" + interface, {{7, 1}, {31, 3}}, 2);
   }
   check_restarts("ball.toml", "scheme.interface=sharp", {{17, 1}, {50, 1}}, 1);
@@ -189,15 +189,14 @@ TEST_CASE("a checkpoint that is damaged anywhere is refused, and the one before 
     return outcome.err.find("ball_000000025.h5' cannot be used") != std::string::npos &&
            outcome.out.find("restart from 'parts/checkpoints/ball_000000020.h5'") != std::string::npos;
   };
-  std::vector<std::size_t> places{0, 20, 60, 100, 511, 512, 513, 600, bytes.size() - 1};
-  for (std::size_t i = 1; i < 8; ++i) places.push_back(i * bytes.size() / 8);
+  std::vector<std::size_t> places{0, 20, 60, 511, 512, 600, bytes.size() - 1};
+  for (std::size_t i = 1; i < 4; ++i) places.push_back(i * bytes.size() / 4);
   for (const std::size_t at : places) {
     write(newest, damaged(bytes, at));
     CAPTURE(at, bytes.size());
     CHECK(refused());
   }
-  for (const std::size_t size :
-       {std::size_t{0}, std::size_t{300}, std::size_t{512}, bytes.size() / 2, bytes.size() - 1}) {
+  for (const std::size_t size : {std::size_t{0}, std::size_t{512}, bytes.size() - 1}) {
     write(newest, bytes.substr(0, size));
     CAPTURE(size);
     CHECK(refused());
@@ -284,4 +283,46 @@ TEST_CASE("when a rank is killed the run ends and says so, and goes on from its 
   INFO(rest.err);
   CHECK(rest.status == 0);
   check_same(folder.path("parts"), folder.path("whole"), false);
+}
+
+TEST_CASE("a run that turns unphysical names its last checkpoint and leaves the fields before the step that failed") {
+  const Folder folder;
+  // so fast that the energy has no digits left for the pressure
+  folder.write("ball.toml", ball);
+  const Outcome outcome = run(folder,
+                              "ball.toml --quiet --output out --set checkpoint_every=1 region.2.velocity=[8e10,3e9] "
+                              "region.1.velocity=[3e10,1e10] scheme.interface=sharp output.count=1");
+  INFO(outcome.err);
+  REQUIRE(outcome.status == 3);
+  std::smatch told;
+  REQUIRE(std::regex_search(
+      outcome.err, told,
+      std::regex("stopped: step ([0-9]+), .*the state before this step is in '(.*)'; the last checkpoint is '(.*)'")));
+  CHECK(fs::exists(folder.path(told[2])));
+  CHECK(fs::exists(folder.path(told[3])));
+  CHECK_THAT(told[3].str(), Catch::Matchers::EndsWith(fmt::format("_{:09}.h5", std::stoi(told[1]))));
+}
+
+TEST_CASE("a run and a restart under a locale with a decimal comma leave the same bytes") {
+  const Folder folder;
+  folder.write("ball.toml", ball);
+  const std::string german =
+      "mkdir -p locale; localedef -i de_DE -f UTF-8 locale/de_DE.UTF-8 >/dev/null 2>&1 || true; "
+      "export LOCPATH=$PWD/locale LC_ALL=de_DE.UTF-8; bash -c '[ $(printf %.1f 0,5) = 0,5 ]'; ";
+  REQUIRE(run(folder, "ball.toml --quiet --output whole").status == 0);
+  for (const std::string steps : {" --set checkpoint_every=100 max_steps=21", " --restart"}) {
+    const Outcome outcome = shell(german + program_with("run ball.toml --quiet --output german" + steps), folder);
+    INFO(outcome.out << outcome.err);
+    REQUIRE(outcome.status == 0);
+  }
+  check_same(folder.path("german"), folder.path("whole"), true);
+}
+
+TEST_CASE("ranks killed at random moments, also while a checkpoint is written, cost no byte") {
+  const Folder folder;
+  const Outcome outcome =
+      shell(SOURCE_DIR "/tools/faults " + quoted(COBASIS_PROGRAM) + " --kills 4 --per-run 4", folder);
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.status == 0);
+  CHECK(std::regex_search(outcome.out, std::regex("kills=4 during_checkpoint=[1-4] .*: all the same")));
 }

@@ -77,6 +77,10 @@ TEST_CASE("a run that turns unphysical stops with status 3, cell, place, phase a
                    "'aluminium' left its admissible states in cell [0-9]+ at \\([0-9.]+, [0-9.]+, 0\\): volume "
                    "fraction 1, density [0-9.]+ kg/m\\^3, pressure -[0-9.e+]+ Pa, cobasis \\(")));
     CHECK(std::filesystem::exists(folder.path("out/shear.pvd")));  // the way there can be looked at
+    std::smatch fields;
+    REQUIRE(std::regex_search(outcome.err, fields,
+                              std::regex("the state before this step is in '(out/fields/shear_[0-9]+.pvtu)'\n$")));
+    CHECK(std::filesystem::exists(folder.path(fields[1])));
     if (!said.empty()) CHECK_THAT(outcome.err, Contains(said));
     said = lines_of(outcome.err).at(0);
   }

@@ -130,7 +130,8 @@ TEST_CASE("the bars of a study hold the exact plateaus of the shear test of sect
 
 TEST_CASE("a study tells values, orders, costs before and after, and the run that an accuracy takes") {
   const Folder folder;
-  const Outcome outcome = succeed(study("impact", impact_plateaus, 200, "--accuracy 1e-2,1e-5 --set scheme.order=1"), folder);
+  const Outcome outcome =
+      succeed(study("impact", impact_plateaus, 200, "--accuracy 1e-2,1e-5 --set scheme.order=1"), folder);
   INFO(outcome.out);
   CHECK(outcome.err.empty());
   for (const std::string said : {"mesh 3 of 3: n = 200, 200 cells, predicted ", " ± ", "order",

@@ -64,7 +64,7 @@ TEST_CASE("unknown keys are refused in every table, with the nearest name") {
 }
 
 TEST_CASE("keys and words of features that do not exist are refused like unknown ones") {
-  for (const char* key : {"checkpoint_every = 10", "stop_when = \"steady\"", "accuracy = \"high\"", "order = 1"})
+  for (const char* key : {"stop_when = \"steady\"", "accuracy = \"high\"", "order = 1"})
     check_mistake(with(rest, "end_time", std::string(key) + "\nend_time"), key,
                   {"unknown key", "allowed: schema, title"});
   check_mistake(with(rest, "end_time", "scene = \"spherical\"\nend_time"), "scene",
@@ -395,6 +395,18 @@ TEST_CASE("friction needs a coefficient, and two solids") {
                 {"unknown key \"coefficient\"", "allowed: type"});
   check_mistake(rest + "[contact]\n\"air-copper\" = { type = \"friction\", coefficient = 1 }\n", "\"air-copper\"",
                 {"friction of \"air-copper\", of which one is a fluid; allowed: sliding"});
+}
+
+TEST_CASE("checkpoints come after steps from 1 on, or after minutes, not both and not neither") {
+  const auto every = [](const std::string& value, const std::vector<std::string>& says) {
+    check_mistake(with(rest, "end_time", "checkpoint_every = " + value + "\nend_time"), "checkpoint_every", says);
+  };
+  every("0", {"checkpoint_every = 0", "a whole number; or a table [steps], 1 <= checkpoint_every"});
+  every("2.5", {"checkpoint_every = 2.5", "a whole number"});
+  every("{ minutes = -1 }", {"minutes = -1", "0 < minutes"});
+  every("{ steps = 1, seconds = 1 }", {"unknown key \"seconds\"", "allowed: steps, minutes"});
+  every("{ steps = 1, minutes = 1 }", {"both \"steps\" and \"minutes\""});
+  every("{}", {"neither steps nor minutes"});
 }
 
 TEST_CASE("gravity across the axis, or out of the plane, is refused") {

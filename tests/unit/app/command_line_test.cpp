@@ -95,7 +95,7 @@ TEST_CASE("wrong usage is refused with what is allowed") {
   refuses({"new"}, "no name", "cobasis new NAME");
   refuses({"new", "a", "--lik", "b"}, "--lik", "did you mean \"--like\"?");
   refuses({"run"}, "no file", "cobasis run CASE");
-  refuses({"run", "a.toml", "--restart"}, "--restart", "--trust-geo");
+  refuses({"check", "a.toml", "--restart"}, "--restart", "--trust-geo");
   refuses({"run", "a.toml", "--quite"}, "--quite", "did you mean \"--quiet\"?");
   refuses({"run", "a.toml", "b.toml"}, "b.toml", "one file");
   refuses({"run", "a.toml", "--set", "cfl"}, "cfl", "key=value");
