@@ -79,7 +79,8 @@ class SharpInterface {
              int ring);
   void follow(Fields& fields, std::span<const std::pair<std::int32_t, int>> followers);
   /// Whether the state of a phase that the cell's arrays hold is another cell's.
-  bool borrows(int k, std::int32_t cell) const { return borrowed_[k][cell] == step_; }
+  bool borrows(int k, std::int32_t cell) const { return borrowed_[k][cell] >= first_stage_; }
+  bool lends(const Fields& fields, int k, std::int32_t cell) const;
   void borrow(Fields& fields, int k, std::int32_t cell, std::int32_t from);
   void borrow_missing(Fields& fields, std::int32_t cell);
   std::int32_t richest_neighbour(const Fields& fields, int k, std::int32_t cell) const;
@@ -120,12 +121,13 @@ class SharpInterface {
   std::vector<std::vector<std::pair<std::int32_t, int>>> speed_users_;
   std::vector<std::vector<std::int8_t>> health_;  // [phase][cell]: see find_health
   std::vector<std::vector<std::int64_t>>
-      borrowed_;                         // [phase][cell]: the last step in which it held another cell's state
+      borrowed_;                         // [phase][cell]: the last stage in which it took another cell's state
   std::vector<std::int32_t> following_;  // cells of the present followers
   NeighbourExchange exchange_;
   bool shares_planes_;
   std::int64_t step_ = 0;
-  bool settled_ = false;  // whether the normals have been found once
+  std::int64_t stage_ = 0, first_stage_ = 0;  // exchanges of planes so far; at the beginning of the step
+  bool settled_ = false;                      // whether the normals have been found once
 };
 
 template <class Visit>

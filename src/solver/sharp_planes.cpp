@@ -78,12 +78,18 @@ bool SharpInterface::has_state(const Fields& fields, int k, std::int32_t cell) c
   return fields.phases[k].alpha[cell] > 0 || borrows(k, cell);
 }
 
+/// Whether another cell may take over its state: what was borrowed since the last exchange, the neighbours of other
+/// ranks do not know yet.
+bool SharpInterface::lends(const Fields& fields, int k, std::int32_t cell) const {
+  return fields.phases[k].alpha[cell] > 0 || (borrows(k, cell) && borrowed_[k][cell] < stage_);
+}
+
 void SharpInterface::borrow(Fields& fields, int k, std::int32_t cell, std::int32_t from) {
   Phase& phase = fields.phases[k];
   for (auto& component : phase.primitive) component[cell] = component[from];
   for (int c = fields.first_cobasis(); c < phase.n_conserved(); ++c)
     phase.conserved[c][cell] = phase.conserved[c][from];
-  borrowed_[k][cell] = step_;
+  borrowed_[k][cell] = stage_;
 }
 
 /// The neighbour that has most of a phase and a state of its own; -1: none.
@@ -106,7 +112,7 @@ std::int32_t SharpInterface::richest_neighbour(const Fields& fields, int k, std:
 void SharpInterface::follow(Fields& fields, std::span<const std::pair<std::int32_t, int>> followers) {
   following_.clear();
   for (const auto& [cell, k] : followers) {
-    borrowed_[k][cell] = step_;
+    borrowed_[k][cell] = stage_;
     following_.push_back(cell);
   }
   for (const auto& [cell, k] : followers) {
@@ -175,7 +181,7 @@ void SharpInterface::exchange(Fields& fields) {
          ++cell) {
       for (int k = 0; k < fields.n_phases(); ++k) {
         health_[k][cell] = static_cast<std::int8_t>(*in++);
-        borrowed_[k][cell] = *in++ != 0 ? step_ : -1;
+        borrowed_[k][cell] = *in++ != 0 ? stage_ : -1;
       }
       for (const int k : planes_of_) {
         const int ring = static_cast<int>(*in++);
@@ -186,11 +192,13 @@ void SharpInterface::exchange(Fields& fields) {
       for_each_borrowed(cell, [&](double& value) { value = *in++; });
     }
   }
+  ++stage_;
 }
 
 void SharpInterface::place(const Faces& faces, Fields& fields,
                            std::span<const std::pair<std::int32_t, int>> followers) {
   ++step_;
+  first_stage_ = ++stage_;
   follow(fields, followers);
   cut_cells_.clear();
   mixed_cells_.clear();
@@ -291,8 +299,7 @@ void SharpInterface::adopt(Fields& fields, int k, std::int32_t cell, std::int32_
                            double speed, int ring) {
   Cell& c = cells_[k][cell];
   for (int phase = 0; phase < fields.n_phases(); ++phase)
-    if (!fields.phases[phase].is_void && !(fields.phases[phase].alpha[cell] > 0) &&
-        (phase == k || !borrows(phase, cell)) && has_state(fields, phase, from))
+    if (!fields.phases[phase].is_void && !has_state(fields, phase, cell) && lends(fields, phase, from))
       borrow(fields, phase, cell, from);
   borrow_missing(fields, cell);
   c = {plane, {}, speed, 1, ring, step_};

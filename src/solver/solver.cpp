@@ -18,11 +18,11 @@ double Solver::advance(double until) {
     caution_->tell(fields_, step_);
     take_step(until);
     if (!mpi_.any(troubled_)) break;
-    ++redone_;
     const bool over = attempt_ + 1 == most_attempts;
     const std::string report = over ? unphysical_report() : std::string();
     restore();
     if (over) throw Unphysical(report);
+    ++redone_;
     caution_->spread(mesh_, step_, attempt_ + 1);
   }
   book_boundaries(last_dt_);

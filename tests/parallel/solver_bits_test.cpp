@@ -152,6 +152,22 @@ velocity = [400, -50, 0]
 )");
 }
 
+TEST_CASE("a body that goes through another between sharp surfaces gives the same bits on any number of ranks") {
+  const std::string around = GENERATE(as<std::string>(), "void = { pressure = 1e5 }", "material = \"air\"");
+  const bool space = GENERATE(false, true);
+  const auto point = [&](const std::string& in_plane) { return "[" + in_plane + (space ? ", 0.5]\n" : "]\n"); };
+  const std::string state = "pressure = 1e5\n";
+  check_bits_of_text(60, around,
+                     "scheme = { interface = \"sharp\" }\n" + (space ? tetrahedra : triangles) +
+                         "[phase.copper]\nmaterial = \"copper\"\n" + aluminium + "[phase.around]\n" + around +
+                         "\n[[region]]\nshape = \"everywhere\"\nfill = \"around\"\n" + (around[0] == 'm' ? state : "") +
+                         "[[region]]\nshape = \"box\"\nlow = " + (space ? "[0.5, 0.1, 0.1]" : "[0.5, 0.1]") +
+                         "\nhigh = " + (space ? "[0.65, 0.9, 0.9]" : "[0.65, 0.9]") + "\nfill = \"aluminium\"\n" +
+                         state + "[[region]]\nshape = \"sphere\"\ncenter = " + point("0.35, 0.5") +
+                         "radius = 0.14\nfill = \"copper\"\nvelocity = " + (space ? "[1500, 0, 0]\n" : "[1500, 0]\n") +
+                         state + "[boundary]\n\"*\" = \"transmissive\"\n");
+}
+
 TEST_CASE("steps that are taken again, and states that are mended, give the same bits on any number of ranks") {
   for (const auto& [name, text] : {std::pair("gas", hypersonic_gas(4)), std::pair("solid", hypersonic_solid(3)),
                                    std::pair("solid in void", hypersonic_solid_in_void(3))}) {

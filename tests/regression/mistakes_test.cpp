@@ -129,7 +129,7 @@ TEST_CASE("a value of the wrong type, out of range or not a number is refused wi
   check_replaced("end_time = 1e-5", "end_time = \"soon\"", {"\"soon\"", "allowed: a number [s], 0 < end_time"});
   check_replaced("end_time = 1e-5", "end_time = -1.0", {"end_time = -1", "allowed: a number [s], 0 < end_time"});
   check_replaced("end_time = 1e-5", "cfl = 2.5\nend_time = 1e-5", {"cfl = 2.5", "cfl <= 2"});
-  check_replaced("pressure = 1e5", "pressure = nan", {"pressure = nan", "allowed: a number [Pa]"});
+  check_replaced("pressure = 1e5", "pressure = nan", {"pressure = nan", "allowed: a number, or a formula in x, y, z [Pa]"});
 }
 
 TEST_CASE("what is not TOML, or not a formula, is refused at its line") {
@@ -205,7 +205,7 @@ TEST_CASE("a mesh that is missing, no mesh, cut short, of another dimension, or 
 }
 
 TEST_CASE("what does not exist yet is refused like what never will, not ignored") {
-  for (const char* key : {"checkpoint_every = 10", "stop_when = \"steady\"", "restart = true"})
+  for (const char* key : {"stop_when = \"steady\"", "restart = true"})
     check_replaced("end_time = 1e-5", std::string(key) + "\nend_time = 1e-5", {"unknown key"});
   check_replaced("end_time = 1e-5", "scene = \"spherical\"\nend_time = 1e-5", {"allowed: plane, axisymmetric, space"});
   check_refused(with(right, "[boundary]", "[contact]\ndefault = \"glue\"\n[boundary]"),
@@ -213,12 +213,6 @@ TEST_CASE("what does not exist yet is refused like what never will, not ignored"
   check_refused(with(right, "[boundary]", "[scheme]\nlimiter = \"minmod\"\n[boundary]"),
                 {"wrong.toml:20: ", "limiter = \"minmod\"", "allowed: monotone, none"});
   check_refused(with(right, "[boundary]", "[scheme]\norder = 3\n[boundary]"), {"wrong.toml:20: ", "order = 3"});
-  const Folder folder;
-  const Outcome outcome = shell(program_with("run " + quoted(case_file("impact")) + " --restart"), folder);
-  INFO(outcome.err);
-  CHECK(outcome.status == 2);
-  CHECK_THAT(outcome.err, Contains("\"--restart\" is not expected"));
-  CHECK(folder.contents().empty());
 }
 
 TEST_CASE("traces of every phase are refused with sharp") {
