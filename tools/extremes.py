@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """Maps where runs finish and where they stop as numbers are taken to extremes.
 
-Each point is a small case, of an axis and value, on quadrilaterals, triangles and tetrahedra, at first and second order.
-It finishes; stops with a reason (exit status 3); is refused (2); crawls, with steps that become ever smaller; is
+Each point is a small case, of an axis and value, on quadrilaterals, triangles or tetrahedra, at first or second
+order. It finishes; finishes sensitive to round-off, where other units change more than its last digits; stops with a reason (exit status 3); is refused (2); crawls, with steps that become ever smaller; is
 unstable, at a CFL number above the default; or is WRONG: it loses mass or energy, ends by a signal or without a reason,
-hangs, leaves what is no number, or differs in other units. Leaves extremes.csv (a row per point), extremes.md,
+hangs, leaves what is no number, or differs in units that are powers of two. Leaves extremes.csv (a row per point), extremes.md,
 extremes.png, and in wrong/ the cases of points that are WRONG; there should be none. Exit status 1: there are.
 """
 import argparse
@@ -37,9 +37,7 @@ def keep_wrong(points, folder):
     shutil.rmtree(folder, ignore_errors=True)
     for point in points:
         if point.verdict == WRONG:
-            os.makedirs(folder, exist_ok=True)
-            with open(os.path.join(folder, point.name() + ".toml"), "w") as out:
-                out.write(f"# {point.words}\n{point.text()}")
+            point.write(folder)
 
 
 def main():
@@ -50,7 +48,7 @@ def main():
     options.add_argument("--program", default=os.path.join(ROOT, "build/release/cobasis"))
     options.add_argument("--output", default=os.path.join(ROOT, "out/extremes"), help="default: out/extremes")
     options.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time (default: one per core)")
-    options.add_argument("--limit", type=float, default=60, help="seconds after which a run hangs (default: 60)")
+    options.add_argument("--limit", type=float, default=120, help="seconds after which a run hangs (default: 120)")
     options.add_argument("--readme", action="store_true", help="picture and table into cases/ too")
     given = options.parse_args()
     if given.jobs < 1:

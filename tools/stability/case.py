@@ -30,12 +30,12 @@ class Grid:
     def vector(self, x, y=0.0):
         return f"[{x!r}, {y!r}, 0.0]" if self.space else f"[{x!r}, {y!r}]"
 
-    def strip(self, aspect=1.0, length=1.0):
+    def strip(self, aspect=1.0):
         """Cells are `aspect` times as long as high."""
         file = "tube_space" if self.space else "tube"
         size = "width" if self.space else "height"
-        height = "" if aspect == 1 else f", {size} = {self.across / self.n / aspect * length!r}"
-        numbers = f"length = {length!r}, n = {self.n}, ny = {self.across}, element = {self.type}{height}"
+        height = "" if aspect == 1 else f", {size} = {self.across / self.n / aspect!r}"
+        numbers = f"n = {self.n}, ny = {self.across}, element = {self.type}{height}"
         return self._mesh(file, numbers)
 
     def square(self, n):
@@ -66,7 +66,7 @@ class Grid:
 EVERYWHERE = 'shape = "everywhere"'
 CLOSED = '"*" = "wall"'
 OPEN = 'left = "transmissive"\nright = "transmissive"\n"*" = "symmetry"'
-MOST_STEPS = 4000
+MOST_STEPS = 50000
 
 
 def filled(shape, phase, velocity, pressure=1e5, density=None, more=""):

@@ -11,8 +11,9 @@ from common.program import run_case
 from stability.axes import Axis
 from stability.case import Grid
 
-FINISHED, STOPPED, REFUSED, CRAWLS, UNSTABLE, WRONG = CLASSES = [
+FINISHED, SENSITIVE, STOPPED, REFUSED, CRAWLS, UNSTABLE, WRONG = CLASSES = [
     "finished",  # at its end time, conserving
+    "sensitive",  # finished, but round-off has grown beyond the tolerance
     "stopped",  # exit status 3 and a reason
     "refused",  # exit status 2 and a reason
     "crawls",  # steps so small that their largest number was not enough
@@ -47,6 +48,18 @@ class Point:
 
     def text(self):
         return self.axis.text(Grid(self.element), self.order, self.value)
+
+    def write(self, folder):
+        """Its case and what mesh goes with it into a folder of its own; the case's name."""
+        directory = os.path.join(folder, self.name())
+        os.makedirs(directory)
+        case = os.path.join(directory, "case")
+        with open(case + ".toml", "w") as out:
+            out.write(self.text())
+        if self.axis.mesh:
+            with open(os.path.join(directory, "strip.msh"), "w") as out:
+                out.write(self.axis.mesh(Grid(self.element), self.value))
+        return case
 
     def row(self):
         numbers = [self.mass_error, self.energy_error, self.least_volume, self.units_error]
@@ -107,12 +120,9 @@ def judge(point, outcome, history):
 
 def measure(point, program, folder, limit):
     """Runs it in a folder of its own and fills in what came of it."""
-    directory = os.path.join(folder, point.name())
-    file = directory + ".toml"
-    with open(file, "w") as out:
-        out.write(point.text())
-    outcome = run_case(program, file[: -len(".toml")], directory, {}, limit)
-    history = rows_of(os.path.join(directory, "history.csv"))
+    case = point.write(folder)
+    outcome = run_case(program, case, case, {}, limit)
+    history = rows_of(os.path.join(case, "history.csv"))
     point.exit = outcome.exit
     point.mass_error = float(outcome.summary.get("mass_error", "nan"))
     if history is not None:
@@ -127,24 +137,33 @@ def measure(point, program, folder, limit):
 
 
 def compare_units(points):
-    """In other units results are the same: to the last bit by powers of two, else up to round-off."""
+    """In other units results are the same: to the last bit by powers of two, else up to round-off. Where they are the
+    same by powers of two, larger differences by other numbers are round-off that has grown."""
     ones = {(p.axis.name, p.element, p.order): p for p in points if p.axis.factors and p.value == 1}
-    for point in points:
-        one = ones.get((point.axis.name, point.element, point.order))
-        if one is None or FINISHED not in (point.verdict, one.verdict):
+    exact = set(ones)
+    for point in sorted(points, key=lambda point: not power_of_two(point.value)):
+        key = (point.axis.name, point.element, point.order)
+        one = ones.get(key)
+        if one is None or WRONG in (point.verdict, one.verdict):
             continue
         if point.verdict != one.verdict:
-            if point.verdict != WRONG:
-                point.verdict, point.words = WRONG, f"{point.verdict} where value 1 {one.verdict}: {point.words}"
-            continue
-        point.units_error = units_error(point, one)
-        allowed = 0 if math.frexp(point.value)[0] == 0.5 else TOLERANCE
-        if not point.units_error <= allowed:
-            point.verdict, point.words = WRONG, f"in other units by {point.units_error:.3g} different"
+            point.verdict, point.words = WRONG, f"{point.verdict}, by value 1 {one.verdict}: {point.words}"
+        elif point.verdict == FINISHED:
+            point.units_error = units_error(point, one)
+            if point.units_error > (0 if power_of_two(point.value) else TOLERANCE):
+                grown = not power_of_two(point.value) and key in exact
+                point.verdict = SENSITIVE if grown else WRONG
+                point.words = f"in other units by {point.units_error:.3g} different"
+        if power_of_two(point.value) and point.verdict != FINISHED:
+            exact.discard(key)
+
+
+def power_of_two(value):
+    return math.frexp(value)[0] == 0.5
 
 
 def units_error(point, one):
-    """Of the columns of volume, mass, momentum and energy: the largest difference over the largest value of its kind."""
+    """The largest difference of volumes, masses, momenta and energies, over the largest value of the kind."""
     by = point.axis.factors(point.value)
     speed = by["length"] / by["time"]
     volume = by["length"] ** (3 if Grid(point.element).space else 2)

@@ -12,7 +12,7 @@ from common.plots import save
 from common.results import Failure
 from stability.point import CLASSES, COLUMNS, FINISHED, WRONG
 
-COLOURS = dict(zip(CLASSES, ["#a6dba0", "#fdb863", "#9ecae1", "#fff3a0", "#c2a5cf", "#d7191c"]))
+COLOURS = dict(zip(CLASSES, ["#a6dba0", "#4dac9a", "#fdb863", "#9ecae1", "#fff3a0", "#c2a5cf", "#d7191c"]))
 ELEMENTS = ["quadrilaterals", "triangles", "tetrahedra"]
 ORDERS = [1, 2]
 
@@ -29,8 +29,8 @@ def write(points, file):
 
 def draw(points, axes, picture):
     """Blocks per order and element; a row per axis, in it the values from mild to extreme."""
-    widest = max(len([p for p in points if p.axis is axis and p.element == "triangles" and p.order == 1]) for axis in axes)
-    size = (2.6 + 3 * max(0.42 * widest, 1.5), 0.7 + 2 * (0.19 * len(axes) + 0.35))
+    widest = max(len({p.value for p in points if p.axis is axis}) for axis in axes)
+    size = (2.6 + 3 * max(0.36 * widest, 1.5), 0.7 + 2 * (0.19 * len(axes) + 0.35))
     figure, blocks = plot.subplots(len(ORDERS), len(ELEMENTS), figsize=size, squeeze=False, sharey=True)
     for order, row in zip(ORDERS, blocks):
         for element, block in zip(ELEMENTS, row):
@@ -41,7 +41,8 @@ def draw(points, axes, picture):
                     colour = COLOURS[point.verdict]
                     block.add_patch(Rectangle((x, y), 0.96, 0.9, color=colour, linewidth=0))
                     ink = "white" if point.verdict == WRONG else "black"
-                    block.text(x + 0.48, y + 0.47, axis.label(point.value), ha="center", va="center", fontsize=5.5, color=ink)
+                    label = axis.label(point.value)
+                    block.text(x + 0.48, y + 0.47, label, ha="center", va="center", fontsize=5.5, color=ink)
             block.set_xlim(0, widest)
             block.set_ylim(len(axes), 0)
             block.set_xticks([])
@@ -84,8 +85,8 @@ def table(points, axes):
     lines = ["| axis | values | finish at order 1 | finish at order 2 | the others (points) |", "|---|---|---|---|---|"]
     for axis in axes:
         values = list(dict.fromkeys(axis.label(p.value) for p in points if p.axis is axis))
-        cells = [axis.name, ", ".join(values), *(finishes(points, axis, order) for order in ORDERS), beyond(points, axis)]
-        lines.append("| " + " | ".join(cells) + " |")
+        cells = [axis.name, ", ".join(values)] + [finishes(points, axis, order) for order in ORDERS]
+        lines.append("| " + " | ".join(cells + [beyond(points, axis)]) + " |")
     counts = ", ".join(f"{sum(p.verdict == name for p in points)} {name}" for name in CLASSES)
     lines += ["", f"{len(points)} points: {counts}."]
     wrong = [point for point in points if point.verdict == WRONG]
