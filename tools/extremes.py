@@ -2,10 +2,11 @@
 """Maps where runs finish and where they stop as numbers are taken to extremes.
 
 Each point is a small case, of an axis and value, on quadrilaterals, triangles or tetrahedra, at first or second
-order. It finishes; finishes sensitive to round-off, where other units change more than its last digits; stops with a reason (exit status 3); is refused (2); crawls, with steps that become ever smaller; is
-unstable, at a CFL number above the default; or is WRONG: it loses mass or energy, ends by a signal or without a reason,
-hangs, leaves what is no number, or differs in units that are powers of two. Leaves extremes.csv (a row per point), extremes.md,
-extremes.png, and in wrong/ the cases of points that are WRONG; there should be none. Exit status 1: there are.
+order. It finishes; finishes sensitive to round-off, where other units change more than its last digits; stops with a
+reason (exit status 3); is refused (2); crawls, with steps that become ever smaller; is unstable, at a CFL number above
+the default; or is WRONG: it loses mass or energy, ends by a signal or without a reason, hangs, leaves what is no
+number, or differs in units that are powers of two. Leaves extremes.csv (a row per point), extremes.md, extremes.png,
+and in wrong/ the cases of points that are WRONG. Exit status 1: there are.
 """
 import argparse
 import concurrent.futures
@@ -19,7 +20,7 @@ from common.readme import into_readme
 from common.results import ROOT, Failure
 from stability.axes import AXES
 from stability.point import WRONG, Point, compare_units, measure
-from stability.report import ELEMENTS, ORDERS, draw, table, write
+from stability.report import ELEMENTS, ORDERS, draw, read, table, write
 
 GALLERY = os.path.join(ROOT, "cases/figures")
 
@@ -40,6 +41,24 @@ def keep_wrong(points, folder):
             point.write(folder)
 
 
+def perform(axes, given):
+    """Runs all points of the axes and leaves what came of them."""
+    points = [
+        Point(axis, value, element, order)
+        for axis in axes
+        for value in (axis.quick if given.quick else axis.values)
+        for element in ELEMENTS
+        for order in ORDERS
+    ]
+    os.makedirs(given.output, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
+        list(pool.map(lambda point: measure(point, given.program, folder, given.limit), points))
+    compare_units(points)
+    write(points, os.path.join(given.output, "extremes.csv"))
+    keep_wrong(points, os.path.join(given.output, "wrong"))
+    return points
+
+
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     names = "; ".join(axis.name for axis in AXES)
@@ -49,6 +68,7 @@ def main():
     options.add_argument("--output", default=os.path.join(ROOT, "out/extremes"), help="default: out/extremes")
     options.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time (default: one per core)")
     options.add_argument("--limit", type=float, default=120, help="seconds after which a run hangs (default: 120)")
+    options.add_argument("--redraw", action="store_true", help="picture and table from extremes.csv of an earlier call")
     options.add_argument("--readme", action="store_true", help="picture and table into cases/ too")
     given = options.parse_args()
     if given.jobs < 1:
@@ -57,21 +77,12 @@ def main():
         if not any(part in axis.name for axis in AXES):
             options.error(f"no axis '{part}'; allowed: parts of: {names}")
     chosen = [axis for axis in AXES if not given.axes or any(part in axis.name for part in given.axes)]
-    points = [
-        Point(axis, value, element, order)
-        for axis in chosen
-        for value in (axis.quick if given.quick else axis.values)
-        for element in ELEMENTS
-        for order in ORDERS
-    ]
     start = time.monotonic()
     try:
-        os.makedirs(given.output, exist_ok=True)
-        with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
-            list(pool.map(lambda point: measure(point, given.program, folder, given.limit), points))
-        compare_units(points)
-        write(points, os.path.join(given.output, "extremes.csv"))
-        keep_wrong(points, os.path.join(given.output, "wrong"))
+        if given.redraw:
+            points = read(chosen, os.path.join(given.output, "extremes.csv"))
+        else:
+            points = perform(chosen, given)
         picture = os.path.join(given.output, "extremes.png")
         draw(points, chosen, picture)
         text = table(points, chosen)

@@ -1,6 +1,5 @@
 """The map as a picture and as a table."""
 import csv
-import os
 
 import matplotlib
 
@@ -10,7 +9,7 @@ from matplotlib.patches import Patch, Rectangle
 
 from common.plots import save
 from common.results import Failure
-from stability.point import CLASSES, COLUMNS, FINISHED, WRONG
+from stability.point import CLASSES, COLUMNS, FINISHED, WRONG, Point
 
 COLOURS = dict(zip(CLASSES, ["#a6dba0", "#4dac9a", "#fdb863", "#9ecae1", "#fff3a0", "#c2a5cf", "#d7191c"]))
 ELEMENTS = ["quadrilaterals", "triangles", "tetrahedra"]
@@ -25,6 +24,21 @@ def write(points, file):
             table.writerows(point.row() for point in points)
     except OSError as error:
         raise Failure(error) from None
+
+
+def read(axes, file):
+    """Points of a table that `write` left, of these axes."""
+    points = []
+    try:
+        with open(file, newline="") as lines:
+            for row in csv.DictReader(lines):
+                found = [(axis, value) for axis in axes if axis.name == row["axis"] for value in axis.values]
+                found = [(axis, value) for axis, value in found if axis.label(value) == row["value"]]
+                if found:
+                    points.append(Point(*found[0], row["element"], int(row["order"]), row["class"], words=row["words"]))
+    except (OSError, KeyError, ValueError) as error:
+        raise Failure(f"{file}: {error!r}") from None
+    return points
 
 
 def draw(points, axes, picture):
@@ -91,5 +105,5 @@ def table(points, axes):
     lines += ["", f"{len(points)} points: {counts}."]
     wrong = [point for point in points if point.verdict == WRONG]
     if wrong:
-        lines += [""] + [f"- WRONG: {os.path.basename(point.name())}: {point.words}" for point in wrong]
+        lines += [""] + [f"- WRONG: {point.name()}: {point.words}" for point in wrong]
     return "\n".join(lines) + "\n"

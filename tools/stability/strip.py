@@ -6,7 +6,7 @@ GMSH_TYPES = {2: 1, 3: 2, "quadrilaterals": 3, "triangles": 2, "tetrahedra": 4} 
 
 
 def simplices(d):
-    """Corners, by bits, of those that make a square or a cube: along the paths of its edges between opposite corners."""
+    """Corners, by bits, of those that make a square or a cube: along the paths of edges between opposite corners."""
     for order in itertools.permutations(range(d)):
         path = [sum(1 << axis for axis in order[:k]) for k in range(d + 1)]
         odd = sum(order[i] > order[j] for i in range(d) for j in range(i + 1, d)) % 2
@@ -28,8 +28,7 @@ def strip_of(element, n, across, length):
         else:
             cells += [[corner[bits] for bits in path] for path in simplices(d)]
     lines = []
-    names = [("left", "right"), ("bottom", "top"), ("back", "front")][:d]
-    groups = [name for pair in names for name in pair]
+    groups = ["left", "right", "bottom", "top", "back", "front"][: 2 * d]
     for face in boundary(cells, d, element):
         at = [points[i - 1] for i in face]
         axis = next(axis for axis in range(d) if len({point[axis] for point in at}) == 1)
