@@ -58,6 +58,10 @@ def shear(grid, order, speed, push=0.0, a=0.5):
     return case(grid.strip(), order, 0.35 / (FASTEST + speed), phases, regions, sides)
 
 
+def pressed_shear(grid, order, a):
+    return shear(grid, order, 500.0, 300.0, a)
+
+
 def tension(grid, order, share):
     regions = [
         filled(EVERYWHERE, "aluminium", grid.vector(0.0)),
@@ -224,7 +228,7 @@ def axes():
         Axis("gas into gas thinner by", powers[1:], into_thin_gas, [1e10]),
         Axis("copper into air thinner by", powers, beside_thin_gas, [1e10]),
         Axis("mu, times the table's", [1.0, 1e-3, 1e-6, 0.0, 10.0, 100.0, 1e3], shear_modulus, [1e3]),
-        Axis("a of aluminium, shear and push", [0.5, 0.25, 0.0, -0.5, -1.0], lambda g, o, a: shear(g, o, 500.0, 300.0, a), [-1.0]),
+        Axis("a of aluminium, sheared and pressed", [0.5, 0.25, 0.0, -0.5, -1.0], pressed_shear, [-1.0]),
         Axis("p_inf of a liquid, Pa", [1e6, 1e9, 1e12, 1e3, 0.0], reference_pressure, [0.0]),
         Axis("stretch of aluminium", [1.1, 1.5, 2.0, 5.0, 10.0, 0.5, 0.2, 0.1], stretch, [10.0]),
         Axis("turns of a disc", [0.25, 1.0, 3.0, 10.0], turns, [0.25]),
