@@ -84,7 +84,7 @@ def into_thin_gas(grid, order, ratio):
         filled(EVERYWHERE, "gas", grid.vector(0.0), pressure=1e5 / ratio, density=1 / ratio),
         filled(grid.half(), "gas", grid.vector(0.0), density=1.0),
     ]
-    return case(grid.strip(), order, 0.06 / SOUND, {"gas": gas()}, regions)
+    return case(grid.strip(), order, 0.12 / SOUND, {"gas": gas()}, regions)
 
 
 def beside_thin_gas(grid, order, ratio):
@@ -153,7 +153,7 @@ def three_phases(grid, order, speed):
         filled(grid.disc(0.35, 0.5, 0.14), "copper", grid.vector(float(speed))),
     ]
     sides = '"*" = "transmissive"'
-    return case(grid.square(16), order, min(0.15 / max(speed, 1), 0.5 / FASTEST), phases, regions, sides)
+    return case(grid.square(16), order, min(0.3 / max(speed, 1), 0.5 / FASTEST), phases, regions, sides)
 
 
 def courant(grid, order, cfl):
@@ -217,7 +217,7 @@ def scaled(unit):
 
 def axes():
     powers = [10.0**k for k in range(0, 11, 2)]
-    cfl = [0.4, 0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0]
+    cfl = [0.4, 0.8, 1.0, 1.2, 1.3, 1.4, 1.6, 1.8, 2.0]
     shares = [0.5, 1e-3, 1e-6, 1e-12, 0.0, 1 - 1e-3, 1 - 1e-6, 1 - 1e-12, 1.0]
     return [
         Axis("density ratio of gases", [10.0**k for k in range(7)], density_ratio, [1e6]),
