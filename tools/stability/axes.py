@@ -211,8 +211,7 @@ def scaled(unit):
 
     values = [1.0, 2.0**30, 2.0**-30, 1e9, 1e-9]
     names = dict(zip(values, ["1", "2^30", "2^-30", "1e9", "1e-9"]))
-    quick = [1.0] if unit == "length" else [1.0, 2.0**30]
-    return Axis(f"unit of {unit} times", values, text, quick, names.get, factors, mesh)
+    return Axis(f"unit of {unit} times", values, text, [1.0, 2.0**30], names.get, factors, mesh)
 
 
 def axes():
