@@ -117,7 +117,9 @@ Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Bou
       for (int a = 0; a < 3; ++a)
         stencil.weight[a][at] = solve[a][0] * delta.x + solve[a][1] * delta.y + solve[a][2] * delta.z;
     }
-    stencil.tolerance[cell] = std::pow(std::pow(mesh.measure(cell), 1.0 / mesh.dimension) / domain, 1.5);
+    // Of the share, not of the cell: a root of a power of two is none, and bits would depend on the unit of length.
+    const double share = mesh.measure(cell) / (mesh.dimension == 3 ? domain * domain * domain : domain * domain);
+    stencil.tolerance[cell] = std::pow(share, 1.5 / mesh.dimension);
   }
   stencil.averages = mpi.any(stencil.averages);
   return stencil;
