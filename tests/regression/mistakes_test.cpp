@@ -129,7 +129,8 @@ TEST_CASE("a value of the wrong type, out of range or not a number is refused wi
   check_replaced("end_time = 1e-5", "end_time = \"soon\"", {"\"soon\"", "allowed: a number [s], 0 < end_time"});
   check_replaced("end_time = 1e-5", "end_time = -1.0", {"end_time = -1", "allowed: a number [s], 0 < end_time"});
   check_replaced("end_time = 1e-5", "cfl = 2.5\nend_time = 1e-5", {"cfl = 2.5", "cfl <= 2"});
-  check_replaced("pressure = 1e5", "pressure = nan", {"pressure = nan", "allowed: a number, or a formula in x, y, z [Pa]"});
+  check_replaced("pressure = 1e5", "pressure = nan",
+                 {"pressure = nan", "allowed: a number, or a formula in x, y, z [Pa]"});
 }
 
 TEST_CASE("what is not TOML, or not a formula, is refused at its line") {
