@@ -85,7 +85,7 @@ def main():
     if given.jobs < 1:
         options.error(f"--jobs {given.jobs}; allowed: from 1")
     if given.readme and given.names:
-        options.error("--readme with some figures only: the table there is of all; allowed: without names (--redraw spares runs)")
+        options.error("--readme renews the table of all figures; allowed: without names (--redraw spares the runs)")
     for name in given.names:
         if name not in FAMILIES:
             options.error(f"no figure '{name}'; allowed: {', '.join(FAMILIES)}")
