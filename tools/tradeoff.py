@@ -25,6 +25,8 @@ from common.readme import into_readme
 from common.results import ROOT, Failure
 from tradeoff_cases import CASES, QUICK
 
+ROUND_OFF = 2.0**-53  # no smaller error counts as smaller
+
 
 @dataclasses.dataclass
 class Run:
@@ -42,7 +44,7 @@ class Run:
     words: str = ""
 
     def good(self):
-        return self.exit == 0 and self.error > 0 and self.seconds > 0
+        return self.exit == 0 and math.isfinite(self.error) and self.seconds > 0
 
     def order(self):
         return 1 if self.scheme.startswith("order 1") else 2
@@ -67,7 +69,9 @@ def perform(run, program, scratch, limit):
             )
             run.errors = CASES[run.case].errors(directory)
             run.error = float(numpy.mean(list(run.errors.values())))
-            if not math.isfinite(run.error):
+            if math.isfinite(run.error):
+                run.error = max(run.error, ROUND_OFF)
+            else:
                 run.words = "the error is not a number"
         except (Failure, KeyError, OSError, ValueError) as error:
             run.words = f"no error measured: {error!r}"
@@ -160,7 +164,7 @@ def draw(case, runs, picture):
 def where_it_stopped(words):
     """The step and the phase of a run that turned unphysical; else what it said."""
     stopped = re.search(r"stopped: (step \d+), .*?(phase '\w+')", words)
-    return f"{stopped[1]}, {stopped[2]}" if stopped else words or "the error is zero to round-off"
+    return f"{stopped[1]}, {stopped[2]}" if stopped else words
 
 
 def table(runs):

@@ -197,7 +197,7 @@ CASES = {
     "droplet": Case(
         {
             f"{scheme}, {name}": TWO_PHASES[scheme] | keys
-            for scheme in ("order 1, diffuse", "order 2, diffuse", "order 2, compressed")
+            for scheme in ("order 1, diffuse", "order 2, diffuse", "order 2, compressed", "order 2, sharp")
             for name, keys in (("acoustic", ACOUSTIC), ("low Mach", LOW_MACH))
         },
         droplet(),
