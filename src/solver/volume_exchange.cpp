@@ -13,6 +13,8 @@ namespace cobasis {
 namespace {
 
 constexpr double dust_threshold = 1e-11;
+/// What another phase's dust may change of a stretched phase's pressure when it takes over the volume.
+constexpr double change_in_tension = 1e-4;
 /// A donor keeps a phase that it gives: what is itself small (fragments below 1e-2 may be exchanged by force, others
 /// below the threshold) may be about to leave the donor, and must not be given twice.
 constexpr double least_fragment = 1e-2;
@@ -38,6 +40,17 @@ void reset_cobasis(const Fields& fields, Phase& phase, std::int32_t cell) {
 
 /// Whether so much of what is available may be given by a cell of volume V.
 bool has(double available, double given, double V) { return available >= given + least_rest * V; }
+
+/// The largest volume fraction in a cell that counts as dust there. Beside planes, in a phase that is stretched the
+/// least bubble grows, by a constant factor each step: what is nothing beside the tension must go before it tears the
+/// phase.
+double largest_dust(const Fields& fields, const Phase& carrier, std::int32_t cell, bool planes) {
+  if (!planes || carrier.is_void) return dust_threshold;
+  const int D = fields.dimension;
+  const double p = carrier.primitive[1 + D][cell],
+               stiffness = carrier.primitive[0][cell] * carrier.primitive[2 + D][cell];
+  return p < 0 && stiffness > 0 ? std::max(dust_threshold, change_in_tension * -p / stiffness) : dust_threshold;
+}
 
 /// Round-off can leave content without volume.
 bool may_be_there(const Phase& phase, std::int32_t cell) {
@@ -105,7 +118,7 @@ double VolumeExchange::promised(std::int32_t cell, int k) const {
 }
 
 void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields& fields, std::int32_t cell, int k,
-                             bool forced) {
+                             bool forced, bool planes) {
   const auto alpha = [&](int phase, std::int32_t at) { return fields.phases[phase].alpha[at]; };
   int j = k == 0 ? 1 : 0;
   for (int phase = 0; phase < fields.n_phases(); ++phase)
@@ -142,7 +155,8 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
   if (volume < 0 && !has(alpha(j, cell) * fields.volume[cell], -volume, fields.volume[cell])) donor = -1;
   // what stays behind where no neighbour has the phase any more follows it
   if (richest < 0) richest = ahead;
-  const bool dust_only = donor < 0 && std::fabs(own) < dust_threshold && richest >= 0;
+  const bool dust_only =
+      donor < 0 && richest >= 0 && std::fabs(own) < largest_dust(fields, fields.phases[j], cell, planes);
   if (dust_only) donor = richest;
   if (donor < 0) {
     ++counters_.kept;
@@ -210,8 +224,10 @@ void VolumeExchange::ask(const Mesh& mesh, const Faces& faces, const Fields& fie
       const bool is_forced = next_forced != forced.end() && *next_forced == std::pair(cell, k);
       if (is_forced) ++next_forced;
       if (!may_be_there(fields.phases[k], cell) || !(alpha < threshold || is_forced)) continue;
-      if (is_forced || alpha < thresholds_.smallest || !expected || !expected(cell, k))
-        request(mesh, faces, fields, cell, k, is_forced);
+      const bool planes = static_cast<bool>(expected);
+      if (is_forced || alpha < thresholds_.smallest || !planes || alpha < largest_dust(fields, m, cell, planes) ||
+          !expected(cell, k))
+        request(mesh, faces, fields, cell, k, is_forced, planes);
     }
   }
 }

@@ -95,7 +95,8 @@ class VolumeExchange {
   void ask(const Mesh& mesh, const Faces& faces, const Fields& fields, double dt,
            std::span<const std::int32_t> candidates, const std::vector<std::pair<std::int32_t, int>>& forced,
            const Expected& expected);
-  void request(const Mesh& mesh, const Faces& faces, const Fields& fields, std::int32_t cell, int k, bool forced);
+  void request(const Mesh& mesh, const Faces& faces, const Fields& fields, std::int32_t cell, int k, bool forced,
+               bool planes);
   void deliver(const Mesh& mesh, const Fields& fields);
   void serve(const Mesh& mesh, const Fields& fields);
   void collect_answers(const Mesh& mesh, const Fields& fields);

@@ -149,3 +149,42 @@ fill = "around"
               .distance_to(300) < 1e-5);
   }
 }
+
+TEST_CASE("a bubble that is nothing beside the tension of a stretched solid does not tear it") {
+  const auto [mesh, velocity] = GENERATE(table<std::string, std::string>(
+      {{"\"@box.geo\"\nmesh_parameters = { n = 16, element = 3 }", "[100.0, 50.0]"},
+       {"\"@box_space.geo\"\nmesh_parameters = { n = 8, element = 4 }", "[100.0, 50.0, 20.0]"}}));
+  CAPTURE(mesh);
+  const std::string copper = "pressure = -5e9\nvelocity = " + velocity + "\n",
+                    bubble = "{ pressure = 1e5, velocity = " + velocity + " }\n";
+  Scene scene = make_scene("mesh = " + mesh + R"(
+end_time = 2e-4
+scheme = { interface = "sharp" }
+[phase.copper]
+material = "copper"
+[phase.air]
+material = "air"
+[[region]]
+shape = "everywhere"
+fill = "copper"
+)" + copper + R"([[region]]
+shape = "sphere"
+center = [0.4, 0.4, 0.4]
+radius = 0.1
+alpha = { copper = 0.999999999, air = 1e-9 }
+)" + copper + "phase.air = " + bubble +
+                               R"([boundary]
+"*" = "transmissive"
+)",
+                           ranks());
+  const double air = total(*scene.solver, "mass.air");
+  scene.run();
+  CHECK(total(*scene.solver, "volume.air") == 0);
+  CHECK(total(*scene.solver, "mass.air") == Approx(air).epsilon(1e-12));
+  const Result result(scene);
+  for (const PhaseSnapshot& phase : result.snapshot.phases)
+    if (phase.is_solid)
+      CHECK(range(
+                scene, [&](auto cell) { return phase.pressure[cell]; }, [](auto) { return true; })
+                .distance_to(-5e9) < 1e-4 * 5e9);
+}
