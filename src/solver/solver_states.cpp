@@ -166,11 +166,13 @@ void Solver::convert_owned(double dt) {
       note_troubled(cell, k);
   followed_ += static_cast<std::int64_t>(followers_.size());
   if (!sharp_) return;
-  for (int k = 0; k < fields_.n_phases(); ++k)
-    for (const std::int32_t cell : touched_cells_.span())
-      if (!fields_.phases[k].is_void && fields_.phases[k].alpha[cell] > 0 &&
-          fields_.phases[k].alpha[cell] < without_state)
-        followers_.emplace_back(cell, k);
+  // Of all cells, whether the step touched them or not: so do the ranks that see them as their halo.
+  for (int k = 0; k < fields_.n_phases(); ++k) {
+    if (fields_.phases[k].is_void) continue;
+    const auto& alpha = fields_.phases[k].alpha;
+    for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell)
+      if (alpha[cell] > 0 && alpha[cell] < without_state) followers_.emplace_back(cell, k);
+  }
   std::sort(followers_.begin(), followers_.end());
   followers_.erase(std::unique(followers_.begin(), followers_.end()), followers_.end());
 }

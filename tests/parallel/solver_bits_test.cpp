@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <random>
+#include <regex>
 #include <thread>
 
 #include "support/hypersonic.hpp"
@@ -153,15 +154,14 @@ velocity = [400, -50, 0]
 }
 
 TEST_CASE("a body that goes through another between sharp surfaces gives the same bits on any number of ranks") {
-  const auto [around, space] = GENERATE(table<std::string, bool>(
-      {{"void = { pressure = 1e5 }", false}, {"material = \"air\"", false}, {"material = \"air\"", true}}));
-  const auto point = [in_space = space](const std::string& in_plane) {
-    return "[" + in_plane + (in_space ? ", 0.5]\n" : "]\n");
-  };
-  const std::string state = "pressure = 1e5\n";
+  const std::string around = GENERATE("void = { pressure = 1e5 }", "material = \"air\"");
+  const bool space = GENERATE(false, true);
+  const auto point = [&](const std::string& in_plane) { return "[" + in_plane + (space ? ", 0.5]\n" : "]\n"); };
+  const std::string state = "pressure = 1e5\n",
+                    mesh = space ? std::regex_replace(tetrahedra, std::regex("n = 8"), "n = 10") : triangles;
   check_bits_of_text(60, around,
-                     "scheme = { interface = \"sharp\" }\n" + (space ? tetrahedra : triangles) +
-                         "[phase.copper]\nmaterial = \"copper\"\n" + aluminium + "[phase.around]\n" + around +
+                     "scheme = { interface = \"sharp\" }\n" + mesh + "[phase.copper]\nmaterial = \"copper\"\n" +
+                         aluminium + "[phase.around]\n" + around +
                          "\n[[region]]\nshape = \"everywhere\"\nfill = \"around\"\n" + (around[0] == 'm' ? state : "") +
                          "[[region]]\nshape = \"box\"\nlow = " + (space ? "[0.5, 0.1, 0.1]" : "[0.5, 0.1]") +
                          "\nhigh = " + (space ? "[0.65, 0.9, 0.9]" : "[0.65, 0.9]") + "\nfill = \"aluminium\"\n" +
