@@ -209,6 +209,10 @@ COBASIS_KERNEL void find_slopes(Phase& phase, const Faces& faces, const Stencil&
   }
 }
 
+/// What slopes of e say of a volume at a face, relative to what the slope of the density says. Beyond these bounds the
+/// components no longer belong to one deformation.
+constexpr double least_det = 0.5, most_det = 2;
+
 /// Writes the state of a phase in the faces' buffer on the listed cells' sides. Returns in how many cells the state
 /// would have been inadmissible at a face; those are taken as they are, at first order.
 template <class G, Kind K, class Real, class EquationOfState, Around A, bool Averaged>
@@ -312,10 +316,15 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
       return make_cobasis<G>([&](int c) { return s[P::e + c]; });
     };
     Mask<Real> good = w[P::rho] == w[P::rho];
+    Real det_per_density(0.0);
+    if constexpr (K == Kind::solid) det_per_density = determinant(cobasis_of(w)) / w[P::rho];
     for (int j = 0; j < faces.max_cell_faces; ++j) {
       const auto s = at_face(j);
       good = good && s[P::rho] > Real(0.0) && s[P::rho] < Real(eos.densest()) && s[P::p] > Real(eos.lowest_pressure());
-      if constexpr (K == Kind::solid) good = good && determinant(cobasis_of(s)) > Real(0.0);
+      if constexpr (K == Kind::solid) {
+        const Real det = determinant(cobasis_of(s)), expected = det_per_density * s[P::rho];
+        good = good && det > least_det * expected && det < most_det * expected;
+      }
     }
     if (any(!good)) [[unlikely]] {
       for (int k = 0; k < lanes<Real>; ++k) fallen += i + k < n && !lane(good, k);

@@ -103,3 +103,14 @@ TEST_CASE("slower droplets and a neo-Hookean one spread as far as Lagrangian com
     CHECK(droplet.largest_r95 == Approx(speed.r95).epsilon(0.045));
   }
 }
+
+TEST_CASE("a neo-Hookean droplet spreads to a lamella of three cells: its cobasis stays one deformation's") {
+  Changes changes = {{"mesh_parameters", "{ h = 0.3e-3, outer = 7 }"}};
+  changes.emplace_back("region.1.velocity", "[-6.0, 0]");
+  changes.emplace_back("phase.carbopol.elastic.a", "-1.0");
+  const Droplet droplet = run(changes, 5e-3, 5e-3);
+  CAPTURE(droplet.kinetic, droplet.elastic, droplet.r95);
+  CHECK(droplet.r95 > 5);
+  CHECK(droplet.kinetic + droplet.elastic > 0.5);
+  CHECK(droplet.kinetic + droplet.elastic < 1);
+}
