@@ -57,6 +57,7 @@ Redistribution::Redistribution(const Mpi& mpi, const Mesh& mesh, const Fields& f
       members_(fields.n_phases()) {
   // Room for every cell at once, so that no step allocates; memory that stays untouched costs nothing.
   pairs_.reserve(mesh.n_cells() + 1);
+  second_.reserve(mesh.n_cells() + 1);
   changed_.reserve(2 * (mesh.n_owned + 1));
   for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
     const Neighbour& neighbour = mesh.neighbours[n];
@@ -283,6 +284,7 @@ void Redistribution::take(const Mesh& mesh, const Faces& faces, Fields& fields, 
 void Redistribution::run(const Mesh& mesh, const Faces& faces, Fields& fields,
                          std::span<const std::int32_t> candidates) {
   pairs_.clear();
+  second_.clear();
   small_.clear();
   bool remote = false;
   fields.share_alpha(mesh, alpha_);
@@ -294,15 +296,25 @@ void Redistribution::run(const Mesh& mesh, const Faces& faces, Fields& fields,
       if (alpha == 0 || !(alpha < small_fraction)) continue;
       const bool tiny = std::fabs(alpha) < least_donor;
       if (tiny) small_.emplace_back(cell, k);
-      if (choose(mesh, faces, fields, k, cell, std::max(least_donor, std::fabs(alpha)))) continue;
-      if (tiny)
+      if (choose(mesh, faces, fields, k, cell, std::max(least_donor, std::fabs(alpha)))) {
+        if (!(phase.alpha[pairs_.back().donor] < small_fraction)) continue;
+        second_.push_back(pairs_.back());
+        pairs_.pop_back();
+      } else if (tiny) {
         remote = true;
-      else
+      } else {
         ++counters_.alone;
+      }
     }
   }
-  counters_.merged += static_cast<std::int64_t>(pairs_.size());
+  counters_.merged += static_cast<std::int64_t>(pairs_.size() + second_.size());
   settle(mesh, faces, fields, small_fraction);
+  // A small volume that lends has been averaged itself by now. Were it to lend at the same time, half of what it is
+  // would never meet the state of a whole cell, and would grow from step to step.
+  if (mpi_.any(!second_.empty())) {
+    pairs_.swap(second_);
+    settle(mesh, faces, fields, small_fraction);
+  }
   if (!mpi_.any(remote)) return;
   counters_.alone += remote_.run(mesh, faces, fields, small_);
 }

@@ -32,7 +32,8 @@ struct RedistributionCounters {
 /// the rest. With V the volumes of the phase a neighbourhood has the mean Q^ of what is in it, and a cell takes the
 /// mean of the Q^ of its neighbourhoods, weighted by its parts: sum V Q is conserved, for V > 0 all averages are
 /// convex, and what is nearly half a cell is hardly averaged (Giuliani, Almgren, Bell, Berger, de Frahan, Rangarajan,
-/// J. Comput. Phys. 464 (2022) 111305). Q: mass, momentum, energy per volume of the phase, and the cobasis.
+/// J. Comput. Phys. 464 (2022) 111305). Neighbourhoods whose donor has less than half a cell come after the others:
+/// what such a donor lends is what it has got. Q: mass, momentum, energy per volume of the phase, and the cobasis.
 class Redistribution {
  public:
   Redistribution(const Mpi& mpi, const Mesh& mesh, const Fields& fields);
@@ -92,7 +93,8 @@ class Redistribution {
   RemoteVolumes remote_;
   NeighbourExchange alpha_, choices_, shares_;
   std::vector<std::int32_t> neighbour_of_halo_;
-  std::vector<Pair> pairs_;  // first about owned cells, then about halo cells
+  std::vector<Pair> pairs_;   // first about owned cells, then about halo cells
+  std::vector<Pair> second_;  // about owned cells, with donors that are small themselves
   std::size_t n_own_pairs_ = 0;
   std::vector<std::vector<std::int32_t>> asked_;  // per neighbour: pairs about owned cells with its cells
   std::vector<std::pair<std::int32_t, std::int32_t>> received_;  // per neighbour: its part of pairs_
