@@ -1,0 +1,129 @@
+// Free bodies of the cases that swing or turn for long in a void: what should last for ever, and how it fades.
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "app/integrals.hpp"
+#include "measures.hpp"
+
+using namespace cobasis;
+using namespace cobasis::test;
+
+namespace {
+
+using Changes = std::vector<std::pair<std::string, std::string>>;
+
+/// A number that changes its sign at both ends of every swing, and the kinetic energy, over time.
+struct Swing {
+  std::vector<double> times, values, kinetic;
+
+  /// When the sign changes; changes that follow another within `least` are of faster waves.
+  std::vector<double> ends(double least) const {
+    std::vector<double> found;
+    for (std::size_t i = 1; i < times.size(); ++i) {
+      if (values[i - 1] * values[i] > 0) continue;
+      const double t = times[i - 1] + (times[i] - times[i - 1]) * values[i - 1] / (values[i - 1] - values[i]);
+      if (found.empty() || t > found.back() + least) found.push_back(t);
+    }
+    return found;
+  }
+
+  /// Of the ends of swings, at least three: mean of twice the time between two.
+  double period(double least) const {
+    const std::vector<double> t = ends(least);
+    REQUIRE(t.size() >= 3);
+    return 2 * (t.back() - t.front()) / static_cast<double>(t.size() - 1);
+  }
+
+  /// Largest kinetic energy between two ends, in order.
+  double peak(double least, std::size_t which) const {
+    const std::vector<double> t = ends(least);
+    REQUIRE(t.size() > which + 1);
+    double most = 0;
+    for (std::size_t i = 0; i < times.size(); ++i)
+      if (times[i] > t[which] && times[i] < t[which + 1]) most = std::max(most, kinetic[i]);
+    return most;
+  }
+
+  /// What part of the amplitude is lost in a period, from the first swing on: half a period from peak to peak.
+  double loss(double least) const {
+    return 1 - peak(least, 1) / peak(least, 0);  // the square root of their ratio is half a period's
+  }
+};
+
+Swing swing(const std::string& name, const Changes& changes, const std::string& phase,
+            const std::function<double(Scene&)>& value) {
+  Scene scene = make_case(name, changes, ranks());
+  Swing result;
+  while (scene.solver->time() < scene.setup.end_time) {
+    scene.solver->advance(scene.setup.end_time);
+    result.times.push_back(scene.solver->time());
+    result.values.push_back(value(scene));
+    result.kinetic.push_back(total(*scene.solver, "kinetic." + phase));
+  }
+  return result;
+}
+
+Swing tube(double h, int element, double speed, double end) {
+  return swing("breathing_tube",
+               {{"mesh_parameters", fmt::format("{{ h = {}, element = {} }}", h, element)},
+                {"region.1.velocity", fmt::format("[\"{0}*x/(x^2+y^2)\", \"{0}*y/(x^2+y^2)\"]", speed)},
+                {"end_time", fmt::format("{}", end)}},
+               "rubber", [](Scene& scene) { return total(*scene.solver, "momentum.rubber.x"); });
+}
+
+/// The case with its velocity at first times `scale`.
+Swing plate(int n, int element, double scale, double end) {
+  const std::string s = "(78.834*(x+0.03))";
+  const std::string velocity =
+      fmt::format("{1}*4.3369e-5*2.3597e5*(56.6368*(sinh{0}+sin{0})-57.6455*(cosh{0}+cos{0}))", s, scale);
+  return swing(
+      "vibrating_plate",
+      {{"mesh_parameters", fmt::format("{{ length = 0.068, height = 0.026, n = {}, element = {} }}", n, element)},
+       {"region.1.velocity", "[0.0, \"" + velocity + "\"]"},
+       {"end_time", fmt::format("{}", end)}},
+      "beryllium", [](Scene& scene) {
+        Integrals integrals(scene.setup.integrals, Geometry::plane, scene.mesh, ranks(), scene.setup.phases);
+        return integrals.evaluate(scene.solver->snapshot())[0];
+      });
+}
+
+}  // namespace
+
+TEST_CASE("a plate that swings by less than a cell does not gain energy from what a void leaves of cells") {
+  const int element = GENERATE(4, 3);
+  CAPTURE(element);
+  const Swing small = plate(68, element, 0.01, 16e-6);  // its tip moves by 0.05 of a cell
+  double most = 0;
+  for (std::size_t i = 0; i < small.times.size(); ++i) most = std::max(most, small.kinetic[i] / small.kinetic[0]);
+  CHECK(most <= 1);
+}
+
+TEST_CASE("a tube breathes with the exact period and fades with second order") {
+  const int element = GENERATE(4, 3);
+  CAPTURE(element);
+  const Swing fine = tube(0.1, element, 0.05, 5.5);
+  CAPTURE(fine.period(1), fine.loss(1));
+  CHECK(fine.period(1) == Approx(4.2707).epsilon(0.01));
+  CHECK(fine.loss(1) < 0.15);
+  if (element == 3) return;  // of triangles this coarse the loss is no number yet
+  const Swing coarse = tube(0.2, element, 0.05, 5.5);
+  CAPTURE(coarse.loss(1));
+  CHECK(coarse.loss(1) > 3 * fine.loss(1));
+}
+
+TEST_CASE("a tube that breathes deeply is faster, as the exact solution says") {
+  const Swing deep = tube(0.1, 4, 0.5, 8);
+  CAPTURE(deep.period(1));
+  CHECK(deep.period(1) == Approx(4.2269).epsilon(0.01));
+}
+
+TEST_CASE("a plate vibrates with the period of a Lagrangian computation; what it loses falls with the mesh") {
+  const Swing coarse = plate(34, 4, 1, 40e-6), fine = plate(68, 4, 1, 40e-6);
+  CAPTURE(coarse.period(5e-6), fine.period(5e-6), coarse.loss(5e-6), fine.loss(5e-6));
+  CHECK(fine.period(5e-6) == Approx(29.99e-6).epsilon(0.01));
+  CHECK(coarse.loss(5e-6) > 1.4 * fine.loss(5e-6));
+}
