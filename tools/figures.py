@@ -14,10 +14,10 @@ from common.program import Outcome, run_case
 from common.readme import into_readme
 from common.results import ROOT, Failure
 from common.views import need_display
-from gallery import disc, droplet, plate, tubes
+from gallery import disc, droplet, long, plate, tubes
 from gallery.run import Results
 
-FAMILIES = {family.name: family for module in (tubes, plate, droplet, disc) for family in module.FAMILIES}
+FAMILIES = {family.name: family for module in (tubes, plate, droplet, disc, long) for family in module.FAMILIES}
 OUTCOME = "outcome"  # a file in the folder of a run: exit status; last words
 GALLERY = os.path.join(ROOT, "cases/figures")
 

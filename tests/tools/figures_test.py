@@ -13,6 +13,7 @@ sys.path.insert(0, os.path.join(ROOT, "tools"))
 
 from common.contour import circulation  # noqa: E402
 from common.exact import exact_in_tube  # noqa: E402
+from gallery.long import measure_swings  # noqa: E402
 from gallery.plate import crossings, schlieren  # noqa: E402
 
 
@@ -80,6 +81,18 @@ class Curves(unittest.TestCase):
     def test_exact_profiles_are_constant_between_their_waves(self):
         at = exact_in_tube("impact")(numpy.array([0.1, 0.3, 0.6, 0.9]))
         numpy.testing.assert_allclose(at["velocity.x"], [400, 239.55489884514304, 239.55489884514304, -200])
+
+
+class Swings(unittest.TestCase):
+    def test_a_swing_that_fades_has_its_period_and_loses_its_part_of_the_amplitude(self):
+        time = numpy.linspace(0, 10, 20001)
+        value = numpy.exp(-0.1 * time) * numpy.cos(math.pi * time)  # period 2
+        value += 0.01 * numpy.sin(40 * math.pi * time)  # changes its sign some times at every end
+        periods, loss = measure_swings(time, value, value**2, 0.3)
+        self.assertEqual(len(periods), 8)
+        for period in periods:
+            self.assertAlmostEqual(period, 2, delta=0.01)
+        self.assertAlmostEqual(loss, 1 - math.exp(-0.2), delta=0.01)
 
 
 class Tool(unittest.TestCase):
