@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/integrals.hpp"
-#include "measures.hpp"
+#include "support/scene.hpp"
 
 using namespace cobasis;
 using namespace cobasis::test;
@@ -126,4 +126,25 @@ TEST_CASE("a plate vibrates with the period of a Lagrangian computation; what it
   CAPTURE(coarse.period(5e-6), fine.period(5e-6), coarse.loss(5e-6), fine.loss(5e-6));
   CHECK(fine.period(5e-6) == Approx(29.99e-6).epsilon(0.01));
   CHECK(coarse.loss(5e-6) > 1.4 * fine.loss(5e-6));
+}
+
+TEST_CASE("a turning disc keeps its energy exactly, of its rotation the more the finer the mesh") {
+  const int element = GENERATE(4, 3);
+  CAPTURE(element);
+  const auto lost = [&](int n) {
+    Scene scene = make_case(
+        "turning_disc",
+        {{"mesh_parameters", fmt::format("{{ length = 0.24, height = 0.24, n = {}, element = {} }}", n, element)},
+         {"end_time", "0.31416e-3"}},  // half a turn
+        ranks());
+    const double energy = total(*scene.solver, "energy.aluminium"), kinetic = total(*scene.solver, "kinetic.aluminium");
+    scene.run();
+    CHECK(total(*scene.solver, "energy.aluminium") == Approx(energy).epsilon(1e-12));
+    return 1 - total(*scene.solver, "kinetic.aluminium") / kinetic;
+  };
+  const double coarse = lost(16), fine = lost(32);
+  CAPTURE(coarse, fine);
+  CHECK(fine > 0);
+  CHECK(fine < 0.08);
+  CHECK(coarse > 2.5 * fine);
 }
