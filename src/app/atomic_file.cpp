@@ -41,7 +41,8 @@ void sync_directory_of(const std::string& path) {
 
 void write_part(const std::string& path, std::string_view bytes, int flags) {
   const std::string part = path + ".part";
-  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
+  remove_link(part);
+  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | flags, 0666);
   if (descriptor < 0) fail(path, errno);
   int error = write_all(descriptor, bytes);
   if (error == 0 && ::fsync(descriptor) != 0) error = errno;
@@ -59,6 +60,19 @@ void write_part(const std::string& path, std::string_view bytes, int flags) {
 void write_atomically(const std::string& path, std::string_view bytes) { write_part(path, bytes, O_CREAT | O_TRUNC); }
 
 void finish_atomically(const std::string& path, std::string_view first_bytes) { write_part(path, first_bytes, 0); }
+
+void remove_link(const std::string& path) {
+  std::error_code none;
+  if (std::filesystem::is_symlink(path, none)) std::filesystem::remove(path, none);
+}
+
+void make_writable_folder(const std::string& path, const std::string& probe_name) {
+  std::error_code none;
+  if (std::filesystem::is_symlink(path, none))
+    throw SystemError(
+        fmt::format("'{}' is a link, which may lead anywhere; allowed: a directory, in one that may be a link", path));
+  make_writable_directory(path, probe_name);
+}
 
 void make_writable_directory(const std::string& path, const std::string& probe_name) {
   std::error_code error;
@@ -78,20 +92,22 @@ RowFile::RowFile(const std::string& path, std::string_view header) : path_(path)
   write_atomically(path, header);
   size_ = static_cast<std::int64_t>(header.size());
   checksum_.add(header);
-  descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOFOLLOW);
   if (descriptor_ < 0) fail(path_, errno);
 }
 
 RowFile::RowFile(const std::string& path, std::int64_t size, std::uint64_t checksum) : path_(path), size_(size) {
   std::ifstream file(path, std::ios::binary);
-  std::string rows(static_cast<std::size_t>(size), '\0');
-  if (!file.read(rows.data(), size))
+  std::error_code none;
+  const bool has_all = std::filesystem::file_size(path, none) >= static_cast<std::uintmax_t>(size) && !none;
+  std::string rows(has_all ? static_cast<std::size_t>(size) : 0, '\0');
+  if (!has_all || !file.read(rows.data(), size))
     throw InputError(
         fmt::format("{}: this table of the run is missing or was cut off: its first {} bytes are needed", path, size));
   checksum_.add(rows);
   if (checksum_.value() != checksum)
     throw InputError(fmt::format("{}: this table of the run has been changed in its first {} bytes", path, size));
-  descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOFOLLOW);
   if (descriptor_ < 0 || ::ftruncate(descriptor_, size) != 0) fail(path_, errno);
 }
 

@@ -19,6 +19,12 @@ void finish_atomically(const std::string& path, std::string_view first_bytes);
 /// Creates the directory and its parents and makes sure that files can be created in it. Throws SystemError.
 void make_writable_directory(const std::string& path, const std::string& probe_name);
 
+/// The same for a folder inside the output directory, which must be one itself: no link leads a run out of there.
+void make_writable_folder(const std::string& path, const std::string& probe_name);
+
+/// Takes a symbolic link away, so that what is written does not go where it leads.
+void remove_link(const std::string& path);
+
 /// A table that grows by whole rows. Throws SystemError with path and reason; a row that fails leaves no part of it.
 class RowFile {
  public:

@@ -66,6 +66,9 @@ void read_top_level(const CaseTable& top, CaseReading& reading) {
                   : *scene == "axisymmetric" ? Geometry::axisymmetric
                                              : Geometry::space;
   setup.end_time = top.number("end_time").value_or(0);
+  if (const double least = 1e-100; top.entry("end_time") && setup.end_time < least)  // its thousandth must not be 0
+    reading.mistakes.add(top.where("end_time"),
+                         fmt::format("end_time = {}; allowed: at least {} s", setup.end_time, least));
   setup.cfl = top.number("cfl").value_or(setup.cfl);
   setup.gravity = top.point("gravity").value_or(setup.gravity);
   setup.alpha_min = top.number("alpha_min").value_or(setup.alpha_min);

@@ -15,10 +15,17 @@ std::string Mistakes::where(const Place& place) const {
 
 void Mistakes::add(const Place& place, const std::string& text) {
   const int line = place.from_command_line() ? std::numeric_limits<int>::max() : place.line;
-  found_.push_back({line, where(place) + ": " + text});
+  add({line, where(place) + ": " + text});
 }
 
-void Mistakes::add(const std::string& text) { found_.push_back({std::numeric_limits<int>::max(), text}); }
+void Mistakes::add(const std::string& text) { add({std::numeric_limits<int>::max(), text}); }
+
+void Mistakes::add(Mistake mistake) {
+  found_.push_back(std::move(mistake));
+  if (found_.size() < most) return;
+  found_.push_back({std::numeric_limits<int>::max(), fmt::format("{}: and more; the first {} are told", file_, most)});
+  throw_if_any();
+}
 
 void Mistakes::throw_if_any() const {
   if (found_.empty()) return;

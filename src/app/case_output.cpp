@@ -21,6 +21,8 @@ class Names {
 
   std::string read(const CaseTable& table) {
     const auto name = table.text("name");
+    if (++count_ == most)
+      table.mistakes().add(table.where(), fmt::format("{} tables of this kind; allowed: fewer in {}", most, where_));
     if (name && !taken_.insert(*name).second)
       table.mistakes().add(table.where("name"),
                            fmt::format("name = \"{}\" is taken in {}; allowed: a name of its own", *name, where_));
@@ -28,6 +30,8 @@ class Names {
   }
 
  private:
+  static constexpr int most = 1000;  // each costs memory
+  int count_ = 0;
   std::set<std::string> taken_;
   std::string where_;
 };
@@ -104,6 +108,18 @@ std::string directory_of(const std::optional<std::string>& given, const std::str
   return given ? (file.parent_path() / *given).lexically_normal().string() : file.stem().string();
 }
 
+constexpr double most_outputs = 1e6;
+
+/// Time between outputs, of which there are not more than a run can write.
+std::optional<double> read_every(const CaseTable& table, CaseReading& reading) {
+  const auto every = table.number("every");
+  if (every && reading.setup.end_time / *every > most_outputs)
+    reading.mistakes.add(table.where("every"),
+                         fmt::format("every = {} with end_time = {}; allowed: at most {:g} outputs", *every,
+                                     reading.setup.end_time, most_outputs));
+  return every;
+}
+
 void read_output_table(CaseTable& table, CaseReading& reading) {
   OutputSetup& output = reading.setup.output;
   table.at_most_one({"every", "count"});
@@ -112,7 +128,7 @@ void read_output_table(CaseTable& table, CaseReading& reading) {
     reading.mistakes.add(table.where("directory"), "directory = \"\"; allowed: a path relative to the case file");
   output.directory = directory_of(directory, reading.setup.case_file);
   output.where = reading.mistakes.where(directory ? table.where("directory") : table.where());
-  output.every = table.number("every");
+  output.every = read_every(table, reading);
   if (const auto count = table.integer("count")) output.count = static_cast<int>(*count);
   if (const auto fields = table.words("fields")) output.fields = *fields;
   output.float64 = table.text("precision") == "float64";
@@ -130,7 +146,7 @@ SliceSetup read_slice(CaseTable& table, const std::string& name, CaseReading& re
                    {},   reading.mistakes.where(table.where())};
   if (table.point("normal") && slice.normal.x == 0 && slice.normal.y == 0 && slice.normal.z == 0)
     reading.mistakes.add(table.where("normal"), "normal of length 0; allowed: any other length");
-  slice.every = table.number("every");
+  slice.every = read_every(table, reading);
   if (const auto count = table.integer("count")) slice.count = static_cast<int>(*count);
   if (!slice.every && !slice.count) {
     slice.every = reading.setup.output.every;
@@ -149,10 +165,15 @@ void read_output(const CaseTable& top, CaseReading& reading) {
   if (auto table = top.table("output", keys_of("[output]"))) read_output_table(*table, reading);
   if (!setup.output.every && !setup.output.count) setup.output.count = default_count;
 
+  constexpr std::int64_t most_points = 10'000'000;
+  std::int64_t points = 0;
   Names files({"history", "units"}, "the output directory");
   for (const CaseTable& table : top.tables("line", keys_of("[[line]]"))) {
     const Point from = table.point("from").value_or(Point{}), to = table.point("to").value_or(Point{});
     setup.lines.push_back({files.read(table), from, to, static_cast<int>(table.integer("points").value_or(2))});
+    if ((points += setup.lines.back().points) > most_points)
+      table.mistakes().add(table.where("points"),
+                           fmt::format("{} points on all lines together; allowed: at most {}", points, most_points));
   }
   for (const CaseTable& table : top.tables("probe", keys_of("[[probe]]")))
     setup.probes.push_back({files.read(table), table.point("at").value_or(Point{})});

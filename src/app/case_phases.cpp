@@ -193,6 +193,11 @@ std::optional<int> CaseReading::phase(const std::string& name, const Place& wher
 void read_phases(const CaseTable& top, CaseReading& reading) {
   const TomlEntry* phases = top.table("phase");
   if (!phases) return;
+  constexpr std::size_t most = 100;  // every two of them may meet
+  if (const std::size_t n = std::get<TomlTable>(phases->value.data).size(); n > most) {
+    reading.mistakes.add(phases->where, fmt::format("{} phases; allowed: at most {}", n, most));
+    return;
+  }
   for (const TomlEntry& entry : std::get<TomlTable>(phases->value.data)) {
     const std::size_t before = reading.mistakes.count();
     PhaseSetup phase;

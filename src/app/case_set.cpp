@@ -22,6 +22,9 @@ std::vector<std::string> segments_of(const std::string& dotted_key) {
     else
       segments.back() += c;
   }
+  constexpr std::size_t most = 20;
+  if (segments.size() > most)
+    throw InputError(fmt::format("--set: a key of {} parts; allowed: at most {}", segments.size(), most));
   if (quote || std::ranges::any_of(segments, &std::string::empty))
     throw InputError(
         fmt::format("--set {0}: \"{0}\" is not a key; allowed: names and numbers separated by dots", dotted_key));

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "math/errors.hpp"
 
@@ -61,12 +60,53 @@ TomlValue plain(const toml::node& node, const Place& where, const Origin& origin
 
 }  // namespace
 
+namespace {
+
+constexpr std::size_t most_bytes = 16 << 20;
+constexpr int most_dots = 20;  ///< in a key; tables in tables, as many as a key has parts, are taken apart by recursion
+
+/// Where a key has too many parts, 0 if none has. A number has one dot at most, and texts are skipped as TOML does.
+int line_of_deep_key(std::string_view text) {
+  int line = 1, dots = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (c == '#') {
+      at = std::min(text.find('\n', at), text.size()) - 1;
+    } else if (c == '"' || c == '\'') {
+      const std::string_view three = c == '"' ? R"(""")" : "'''";
+      const bool is_long = text.substr(at, 3) == three;
+      const std::string_view end = is_long ? three : three.substr(0, 1);
+      for (at += end.size(); at < text.size() && text.substr(at, end.size()) != end; ++at) {
+        if (text[at] == '\n') ++line;
+        if (text[at] == '\\' && c == '"') ++at;
+      }
+      at += end.size() - 1;
+    } else if (c == '.') {
+      if (++dots > most_dots) return line;
+    } else if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) {
+      dots = 0;
+      line += c == '\n';
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
 TomlTable read_toml(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   std::error_code none;
   if (!stream || std::filesystem::is_directory(file, none))
     throw InputError(fmt::format("{}: cannot be read; allowed: a case file (TOML)", file));
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  std::string text, block(1 << 14, '\0');
+  while (stream && text.size() <= most_bytes) {
+    stream.read(block.data(), static_cast<std::streamsize>(block.size()));
+    text.append(block, 0, static_cast<std::size_t>(stream.gcount()));
+  }
+  if (text.size() > most_bytes) throw InputError(fmt::format("{}: more than 16 MB; allowed: a case file (TOML)", file));
+  if (const int line = line_of_deep_key(text); line > 0)
+    throw InputError(
+        fmt::format("{}:{}: a key of more than {} parts; allowed: a case file (TOML)", file, line, most_dots + 1));
   try {
     return plain(toml::parse(std::string_view(text), std::string_view(file)), Origin{});
   } catch (const toml::parse_error& error) {
@@ -75,6 +115,9 @@ TomlTable read_toml(const std::string& file) {
 }
 
 TomlValue toml_value_of(std::string_view text, const Place& where) {
+  if (text.find_first_of("=[{") != std::string_view::npos && line_of_deep_key(text) > 0)
+    throw InputError(fmt::format("--set {}: a key of more than {} parts in the value; allowed: keys of a case",
+                                 where.set_key, most_dots + 1));
   try {
     const toml::table document = toml::parse("value = " + std::string(text));
     if (document.size() == 1) return plain(*document.get("value"), where, Origin{where.set_key});

@@ -71,7 +71,8 @@ Checkpoints::Checkpoints(const Setup& setup, Geometry geometry, const Mesh& mesh
       signals_(std::make_unique<SignalWatch>()) {
   do_together(mpi_, [&] {
     if (!mpi_.root()) return;
-    make_writable_directory(directory(), ".writable");
+    make_writable_directory(setup_.output.directory, ".writable");
+    make_writable_folder(directory(), ".writable");
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(directory(), ignored))
       if (entry.path().extension() == ".part") std::filesystem::remove(entry.path(), ignored);  // of a run that died

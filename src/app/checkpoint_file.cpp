@@ -8,11 +8,13 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <utility>
 
 #include "app/atomic_file.hpp"
 #include "app/checksum.hpp"
 #include "math/errors.hpp"
+#include "mesh/child_process.hpp"
 
 namespace cobasis {
 namespace {
@@ -85,6 +87,7 @@ Content content_of(const std::string& path) {
 
 CheckpointFileWriter::CheckpointFileWriter(std::string path) : path_(std::move(path)), part_(path_ + ".part") {
   prepare_library();
+  remove_link(part_);
   const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
   H5Pset_userblock(creation, head_size);
   H5Pset_obj_track_times(creation, false);
@@ -153,48 +156,72 @@ std::string what_is_wrong_with_checkpoint(const std::string& path) {
   return {};
 }
 
-CheckpointFileReader::CheckpointFileReader(std::string path) : path_(std::move(path)) {
-  prepare_library();
-  file_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file_ < 0) throw SystemError(fmt::format("cannot read '{}': {}", path_, reason_of_failure()));
-}
-
-CheckpointFileReader::~CheckpointFileReader() { H5Fclose(file_); }
-
 namespace {
 
-/// All elements of a dataset as `type` in memory.
-template <class T>
-void read_set(hid_t file, const std::string& path, const std::string& name, hid_t type, T& values) {
-  const hid_t set = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
-  hssize_t size = -1;
-  if (set >= 0) {
-    const hid_t space = H5Dget_space(set);
-    size = H5Sget_simple_extent_npoints(space);
-    H5Sclose(space);
-  }
-  bool read = size >= 0;
-  if (size > 0) {
-    values.resize(static_cast<std::size_t>(size));
-    read = H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
-  }
-  const std::string reason = read ? std::string() : reason_of_failure();
-  if (set >= 0) H5Dclose(set);
-  if (!read) throw SystemError(fmt::format("cannot read '{}' in '{}': {}", name, path, reason));
+/// In a child process, since the file may be anybody's: HDF5 crashes on some files, and may ask for any memory.
+std::vector<char> open_in_child(const std::string& path, const std::function<std::vector<char>(hid_t file)>& work,
+                                const std::string& what) {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(path, none);
+  ChildLimits limits;
+  limits.no_side_effects = true;
+  limits.extra_memory = (std::size_t{1} << 30) + 3 * (none ? 0 : size);
+  ChildResult result = run_in_child(
+      [&] {
+        prepare_library();
+        H5PLset_loading_state(0);  // no code from elsewhere to decode what we never encode
+        const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+        if (file < 0) throw SystemError(reason_of_failure());
+        return work(file);
+      },
+      limits);
+  if (!result.error.empty()) throw SystemError(fmt::format("cannot read {}'{}': {}", what, path, result.error));
+  return std::move(result.bytes);
+}
+
+/// All elements of a dataset that lies in the file as CheckpointFileWriter puts it there: no link to another file, not
+/// packed, and not larger than the file.
+std::vector<char> read_set(hid_t file, const std::string& name, hid_t stored, hid_t in_memory, std::size_t value_size) {
+  H5L_info_t link{};
+  if (H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT) < 0) throw SystemError("there is none");
+  const hid_t set = link.type == H5L_TYPE_HARD ? H5Dopen2(file, name.c_str(), H5P_DEFAULT) : -1;
+  if (set < 0) throw SystemError("it is no array of this file");
+  const hid_t space = H5Dget_space(set), type = H5Dget_type(set), creation = H5Dget_create_plist(set);
+  const hssize_t n = H5Sget_simple_extent_npoints(space);
+  hsize_t size = 0;
+  H5Fget_filesize(file, &size);
+  if (n < 0 || H5Tequal(type, stored) <= 0 || H5Pget_layout(creation) != H5D_CONTIGUOUS ||
+      H5Pget_nfilters(creation) != 0 || H5Pget_external_count(creation) != 0)
+    throw SystemError("it is not as this program writes it");
+  if (static_cast<hsize_t>(n) > size / value_size)
+    throw SystemError(fmt::format("{} values, more than a file of {} bytes can hold", n, size));
+  std::vector<char> bytes(static_cast<std::size_t>(n) * value_size);
+  if (n > 0 && H5Dread(set, in_memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
+    throw SystemError(reason_of_failure());
+  return bytes;
 }
 
 }  // namespace
 
+CheckpointFileReader::CheckpointFileReader(std::string path) : path_(std::move(path)) {
+  open_in_child(
+      path_, [](hid_t) { return std::vector<char>(); }, "");
+}
+
 std::vector<double> CheckpointFileReader::read(const std::string& name) const {
-  std::vector<double> values;
-  read_set(file_, path_, name, H5T_NATIVE_DOUBLE, values);
+  const std::vector<char> bytes = open_in_child(
+      path_, [&](hid_t file) { return read_set(file, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, sizeof(double)); },
+      fmt::format("'{}' in ", name));
+  std::vector<double> values(bytes.size() / sizeof(double));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(double));
   return values;
 }
 
 std::string CheckpointFileReader::read_text(const std::string& name) const {
-  std::string text;
-  read_set(file_, path_, name, H5T_NATIVE_UCHAR, text);
-  return text;
+  const std::vector<char> bytes = open_in_child(
+      path_, [&](hid_t file) { return read_set(file, name, H5T_STD_U8LE, H5T_NATIVE_UCHAR, 1); },
+      fmt::format("'{}' in ", name));
+  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace cobasis

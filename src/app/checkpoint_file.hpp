@@ -32,20 +32,17 @@ class CheckpointFileWriter {
 /// Why the file is none that this program can read, in words; empty: it is whole.
 std::string what_is_wrong_with_checkpoint(const std::string& path);
 
-/// Throws SystemError with path and reason, also where there is no such entry.
+/// Of a file that is anybody's. Every member throws SystemError with path and reason, also where there is no such entry,
+/// or one that CheckpointFileWriter has not written.
 class CheckpointFileReader {
  public:
   explicit CheckpointFileReader(std::string path);
-  ~CheckpointFileReader();
-  CheckpointFileReader(const CheckpointFileReader&) = delete;
-  CheckpointFileReader& operator=(const CheckpointFileReader&) = delete;
 
   std::vector<double> read(const std::string& name) const;
   std::string read_text(const std::string& name) const;
 
  private:
   std::string path_;
-  std::int64_t file_ = -1;
 };
 
 }  // namespace cobasis

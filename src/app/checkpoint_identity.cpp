@@ -27,12 +27,18 @@ bool counts(const std::string& key) {
   return true;
 }
 
+/// Groups of a mesh and texts of a case may hold ends of lines.
+std::string one_line(std::string text) {
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; ++at) text.replace(at, 1, "\\n");
+  return text;
+}
+
 std::map<std::string, std::string> lines_of(const std::string& text) {
   std::map<std::string, std::string> lines;
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) {
     const auto at = line.find(" = ");
-    lines[line.substr(0, at)] = line.substr(at + 3);
+    lines[line.substr(0, at)] = at == std::string::npos ? "" : line.substr(at + 3);
   }
   return lines;
 }
@@ -70,7 +76,7 @@ std::string identity_of(const Mesh& mesh, const Mpi& mpi) {
 std::string identity_of(const Setup& setup, Geometry geometry) {
   std::string text = fmt::format("scene = {}\n", name_of(geometry));
   for (const auto& [key, value] : setup.keys)
-    if (counts(key) && key != "scene") text += fmt::format("{} = {}\n", key, value);
+    if (counts(key) && key != "scene") text += one_line(fmt::format("{} = {}", key, value)) + "\n";
   return text;
 }
 

@@ -40,9 +40,9 @@ Output::Output(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
   try {
     together([&] {
       const std::string probe = fmt::format(".writable.{}", mpi.rank());
-      for (const char* folder : {"", "/fields", "/lines"})
-        make_writable_directory(setup_.output.directory + folder, probe);
-      if (!setup_.slices.empty()) make_writable_directory(setup_.output.directory + "/slices", probe);
+      make_writable_directory(setup_.output.directory, probe);
+      for (const char* folder : {"/fields", "/lines"}) make_writable_folder(setup_.output.directory + folder, probe);
+      if (!setup_.slices.empty()) make_writable_folder(setup_.output.directory + "/slices", probe);
     });
   } catch (const SystemError& error) {
     throw InputError(

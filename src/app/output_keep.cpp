@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string_view>
 
 #include "app/output.hpp"
 #include "app/tables.hpp"
+#include "app/written_output.hpp"
 #include "math/errors.hpp"
 
 namespace cobasis {
@@ -38,28 +38,23 @@ void remove_files(const std::filesystem::path& directory, const Condition& condi
   for (const auto& file : files) std::filesystem::remove(file, ignored);
 }
 
-double number_of(const std::string& word) {
-  double value = 0;
-  std::from_chars(word.data(), word.data() + word.size(), value);
-  return value;
-}
-
 }  // namespace
 
-/// A line each: what it is, which of these, two numbers or a time and a path.
 std::string Output::written() const {
-  std::string text;
+  std::vector<WrittenOutput> all;
   const auto add = [&](const char* kind, std::size_t which, const auto& files) {
-    for (const auto& [time, file] : files) text += fmt::format("{} {} {} {}\n", kind, which, time, file);
+    for (const auto& [time, file] : files) all.push_back({.kind = kind, .which = which, .time = time, .file = file});
+  };
+  const auto add_rows = [&](const char* kind, std::size_t which, const RowFile& rows) {
+    all.push_back({.kind = kind, .which = which, .size = rows.size(), .checksum = rows.checksum()});
   };
   add("fields", 0, fields_.files);
   for (std::size_t i = 0; i < slices_.size(); ++i) add("slice", i, slices_[i].series.files);
   for (std::size_t i = 0; i < lines_.size(); ++i) add("line", i, lines_[i].files);
-  if (history_) text += fmt::format("history 0 {} {}\n", history_->size(), history_->checksum());
+  if (history_) add_rows("history", 0, *history_);
   for (std::size_t i = 0; i < probes_.size(); ++i)
-    if (probes_[i].rows)
-      text += fmt::format("probe {} {} {}\n", i, probes_[i].rows->size(), probes_[i].rows->checksum());
-  return text;
+    if (probes_[i].rows) add_rows("probe", i, *probes_[i].rows);
+  return text_of(all);
 }
 
 void Output::keep(Keeper& keeper) {
@@ -91,18 +86,14 @@ void Output::keep(Keeper& keeper) {
 }
 
 void Output::go_on_after(const std::string& written) {
-  std::istringstream lines(written);
-  std::size_t which = 0;
-  for (std::string kind, first, second; lines >> kind >> which >> first && std::getline(lines >> std::ws, second);) {
-    const double number = number_of(first);
-    const auto rows_of = [&](const std::string& name, std::optional<RowFile>& rows) {
-      if (mpi_.root()) rows.emplace(path(name + ".csv"), static_cast<std::int64_t>(number), std::stoull(second));
-    };
-    if (kind == "fields") fields_.files.emplace_back(number, second);
-    if (kind == "slice") slices_[which].series.files.emplace_back(number, second);
-    if (kind == "line") lines_[which].files.emplace_back(number, second);
-    if (kind == "history") rows_of("history", history_);
-    if (kind == "probe") rows_of(probes_[which].name, probes_[which].rows);
+  for (const WrittenOutput& it : written_output(written, {slices_.size(), lines_.size(), probes_.size()})) {
+    if (it.kind == "fields") fields_.files.emplace_back(it.time, it.file);
+    if (it.kind == "slice") slices_[it.which].series.files.emplace_back(it.time, it.file);
+    if (it.kind == "line") lines_[it.which].files.emplace_back(it.time, it.file);
+    if (!it.is_rows() || !mpi_.root()) continue;
+    const bool history = it.kind == "history";
+    (history ? history_ : probes_[it.which].rows)
+        .emplace(path(history ? "history.csv" : probes_[it.which].name + ".csv"), it.size, it.checksum);
   }
   if (!mpi_.root()) return;
   const auto resume = [&](const Series& series) {

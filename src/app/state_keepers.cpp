@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <exception>
 #include <functional>
@@ -27,6 +28,16 @@ std::vector<double> broadcast(const Mpi& mpi, const std::vector<double>& values)
 }
 
 }  // namespace
+
+bool are_rows(std::span<const double> numbers, std::size_t columns, double n_cells, double least, double most) {
+  if (numbers.size() % columns != 0) return false;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double x = numbers[i];
+    const bool fits = i % columns == 0 ? x >= 0 && x < n_cells && x == std::floor(x) : !(x < least || x > most);
+    if (!fits || (std::isfinite(least) && std::isnan(x))) return false;
+  }
+  return true;
+}
 
 BoundaryOrder::BoundaryOrder(const Mesh& mesh, const Mpi& mpi) {
   const std::int32_t first = mesh.first_boundary_face();
@@ -160,7 +171,8 @@ void StateReader::number(const std::string& name, double& value) { value = read(
 
 void StateReader::counter(const std::string& name, std::int64_t& value) {
   const double sum = read(name, 1)[0];
-  value = mpi_.root() ? static_cast<std::int64_t>(sum) : 0;
+  const std::int64_t all = whole(name, sum);
+  value = mpi_.root() ? all : 0;
 }
 
 void StateReader::cells(const std::string& name, std::span<double> values) {
@@ -177,6 +189,9 @@ void StateReader::boundary_faces(const std::string& name, std::span<double> valu
 void StateReader::some_cells(const std::string& name, CellRows& rows) {
   const std::vector<double> all = read(name, any_size);
   const auto columns = static_cast<std::size_t>(rows.width) + 1;
+  if (!are_rows(all, columns, static_cast<double>(mesh_.n_global), rows.least, rows.most))
+    throw SystemError(
+        fmt::format("cannot read '{}' in '{}': its numbers are not those of cells of this mesh", name, path_));
   rows.cells.clear();
   rows.values.clear();
   const auto begin = mesh_.global_id.begin(), end = begin + mesh_.n_owned;  // ascending

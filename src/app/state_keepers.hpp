@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ class BoundaryOrder {
   std::vector<std::int64_t> of_gathered;  ///< rank 0: of the faces of all ranks, rank by rank
   std::vector<std::int64_t> own;
 };
+
+/// Whether these are rows of so many columns: the global id of a cell, then values from least to most.
+bool are_rows(std::span<const double> numbers, std::size_t columns, double n_cells, double least, double most);
 
 /// What fails on rank 0 is told by finish().
 class StateWriter : public Keeper {

@@ -9,7 +9,6 @@
 
 #include "math/errors.hpp"
 #include "math/suggestion.hpp"
-#include "mesh/msh_check.hpp"
 
 namespace cobasis {
 namespace {
@@ -107,17 +106,17 @@ void refuse_dangerous_text(const std::string& file, const Token& token) {
 }
 
 void refuse_dangerous(const std::string& file, const std::vector<Token>& tokens) {
+  const Token* print = nullptr;  // of whose statement this is
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const Token& token = tokens[i];
     if (token.kind == Token::text) refuse_dangerous_text(file, token);
+    if (print && i > 0 && tokens[i - 1].value == ")" && token.kind == Token::symbol && token.value == ">")
+      refuse(file, print->line, fmt::format("'{} ... >' writes a file", print->value));
+    if (token.kind == Token::symbol && token.value == ";") print = nullptr;
     if (token.kind != Token::word) continue;
     if (is_dangerous(token.value))
       refuse(file, token.line, fmt::format("'{}' runs commands or touches files outside the script", token.value));
-    if (token.value == "Printf" || token.value == "Error" || token.value == "Warning") {
-      for (std::size_t j = i + 1; j < tokens.size() && tokens[j].value != ";"; ++j)
-        if (tokens[j - 1].value == ")" && tokens[j].kind == Token::symbol && tokens[j].value == ">")
-          refuse(file, token.line, fmt::format("'{} ... >' writes a file", token.value));
-    }
+    if (token.value == "Printf" || token.value == "Error" || token.value == "Warning") print = &token;
   }
 }
 
@@ -147,8 +146,7 @@ std::vector<std::string> constants_of(const std::vector<Token>& tokens) {
 
 }  // namespace
 
-GeoScript read_geo_script(const std::string& file, bool trust) {
-  const std::string script = read_whole_file(file);
+GeoScript read_geo_script(const std::string& file, const std::string& script, bool trust) {
   if (script.find('\0') != std::string::npos || script.starts_with("\x1f\x8b"))
     throw InputError(fmt::format("{}: not a text file, expected a Gmsh script", file));
   const std::vector<Token> tokens = tokens_of(script);

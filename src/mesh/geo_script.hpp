@@ -13,7 +13,7 @@ struct GeoScript {
 
 /// Throws InputError with file:line for a script that is not text and, unless `trust`, for one that runs commands or
 /// reads or writes other files.
-GeoScript read_geo_script(const std::string& file, bool trust);
+GeoScript read_geo_script(const std::string& file, const std::string& script, bool trust);
 
 /// Throws InputError for a parameter the script does not define, nearest names first.
 void check_parameters(const std::string& file, const GeoScript& script,

@@ -134,7 +134,12 @@ void turn_about_axis(GlobalMesh& mesh) {
   mesh.section = mesh.volume;
   mesh.section_centroid = mesh.centroid;
   for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell) {
-    const RingGeometry ring = ring_of_cell({mesh.volume[cell], mesh.centroid[cell]}, corners_of(mesh.raw, cell));
+    const std::vector<Point> corners = corners_of(mesh.raw, cell);
+    const RingGeometry ring = ring_of_cell({mesh.volume[cell], mesh.centroid[cell]}, corners);
+    if (!(ring.circumference > 0))  // two sides that cross may put the centroid anywhere
+      throw InputError(fmt::format("element {} ({}) at ({:.6g}, {:.6g}) has no volume around the axis",
+                                   mesh.raw.cell_tag[cell], shape_of(mesh.raw.cell_type[cell]).name, corners[0].x,
+                                   corners[0].y));
     mesh.volume[cell] *= ring.circumference;
     mesh.centroid[cell] = ring.centroid;
   }

@@ -2,9 +2,16 @@
 
 #include <fmt/format.h>
 #include <gmsh.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <span>
@@ -206,8 +213,35 @@ void split(int times) {
   for (int i = 0; i < times; ++i) mesh_api::refine();
 }
 
+/// Memory that the system can give [bytes]; 0 if it does not say.
+std::size_t free_memory() {
+  std::ifstream info("/proc/meminfo");
+  for (std::string line; std::getline(info, line);) {
+    std::size_t kilobytes = 0;
+    if (std::sscanf(line.c_str(), "MemAvailable: %zu kB", &kilobytes) == 1) return kilobytes << 10;
+  }
+  return 0;
+}
+
+/// A file in memory that holds the text, as long as the process lives. Gmsh sees what we have checked, whatever happens
+/// to the file on disk meanwhile, and no FILE.opt beside it, which it would run as a script.
+std::string file_in_memory(const std::string& text) {
+  const int file = memfd_create("mesh", MFD_CLOEXEC);
+  std::FILE* const stream = file < 0 ? nullptr : fdopen(file, "w");
+  if (!stream || std::fwrite(text.data(), 1, text.size(), stream) != text.size() || std::fflush(stream) != 0)
+    throw InputError(fmt::format("no room for a copy of it in memory: {}", std::strerror(errno)));
+  return fmt::format("/proc/self/fd/{}", file);
+}
+
+/// Gmsh's words, of a copy in memory with the name of the file.
+std::string with_name(std::string text, const std::string& copy, const std::string& name) {
+  for (std::size_t at = 0; (at = text.find(copy, at)) != std::string::npos; at += name.size())
+    text.replace(at, copy.size(), name);
+  return text;
+}
+
 /// In the child: Gmsh opens the file, meshes it if it is a script, and hands over what the solver needs.
-RawMesh work_in_gmsh(const MeshRequest& request, bool script) {
+RawMesh work_in_gmsh(const MeshRequest& request, bool script, const std::string& file) {
   std::vector<std::string> arguments{"cobasis"};
   for (const auto& [name, value] : request.parameters)
     arguments.insert(arguments.end(), {"-setnumber", name, fmt::format("{}", value)});
@@ -217,7 +251,7 @@ RawMesh work_in_gmsh(const MeshRequest& request, bool script) {
     gmsh::initialize(static_cast<int>(argv.size()), argv.data(), false);
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::logger::start();
-    gmsh::open(request.file);
+    gmsh::open(file);
     if (!script) {
       split(request.splits);
       return extract(request.dimension > 0 ? request.dimension : dimension_of_elements(), false);
@@ -245,24 +279,32 @@ RawMesh read_gmsh(const MeshRequest& request) {
   if (request.dimension != 0 && request.dimension != 2 && request.dimension != 3)
     throw InputError(fmt::format("{}: dimension {}, allowed are 2 and 3", request.file, request.dimension));
 
+  const bool trusted = script && request.trust_geo;
+  std::string text = read_whole_file(request.file);
   ChildLimits limits;
+  limits.no_side_effects = !trusted;  // should the check of a script have missed a command
   if (script) {
-    check_parameters(request.file, read_geo_script(request.file, request.trust_geo), request.parameters);
-    limits.no_side_effects = !request.trust_geo;  // should the check of the script have missed a command
+    check_parameters(request.file, read_geo_script(request.file, text, trusted), request.parameters);
+    limits.extra_memory = free_memory();  // a script may ask for any number of cells
   } else {
     if (!request.parameters.empty())
       throw InputError(
           fmt::format("{}: mesh parameters ('{}') need a .geo", request.file, request.parameters.begin()->first));
+    text = check_msh(request.file, text);
     // Gmsh needs up to ten times the file (measured), we as much again; a damaged count asks for far more.
-    limits.extra_memory = (std::size_t{2} << 30) + (std::size_t{60} << (3 * request.splits)) * check_msh(request.file);
-    limits.no_side_effects = true;
+    limits.extra_memory = (std::size_t{2} << 30) + (std::size_t{60} << (3 * request.splits)) * text.size();
   }
   const ChildResult result = run_in_child(
       [&] {
-        ByteWriter writer;
-        const RawMesh raw = work_in_gmsh(request, script);
-        for_each_member(raw, writer);
-        return writer.bytes;
+        const std::string file = trusted ? request.file : file_in_memory(text);
+        try {
+          ByteWriter writer;
+          const RawMesh raw = work_in_gmsh(request, script, file);
+          for_each_member(raw, writer);
+          return writer.bytes;
+        } catch (const InputError& error) {
+          throw InputError(with_name(error.what(), file, request.file));
+        }
       },
       limits);
   if (!result.error.empty())
@@ -270,6 +312,10 @@ RawMesh read_gmsh(const MeshRequest& request) {
   RawMesh raw;
   ByteReader reader(result.bytes);
   for_each_member(raw, reader);
+  std::error_code none;
+  if (script && !trusted && std::filesystem::exists(request.file + ".opt", none))
+    raw.notices.push_back(
+        fmt::format("{}.opt is not read: it is a script, too; --trust-geo lets Gmsh read it", request.file));
   return raw;
 }
 

@@ -5,11 +5,12 @@
 
 namespace cobasis {
 
-/// Throws InputError: no such file, a directory, empty, not a mesh (Gmsh would run it as a script), a version other
-/// than 2.x and 4.1, cut short, or counts that the file cannot hold. Returns the file's size in bytes.
-std::size_t check_msh(const std::string& file);
-
 /// The whole of a readable, non-empty regular file. Throws InputError naming it.
 std::string read_whole_file(const std::string& file);
+
+/// Of a .msh the sections that Gmsh may see: nodes, elements and what groups them. Throws InputError: not a mesh (Gmsh
+/// would run it as a script), a version other than 2.x and 4.1, sections that a mesh has not, cut short, or counts that
+/// the file cannot hold.
+std::string check_msh(const std::string& file, const std::string& text);
 
 }  // namespace cobasis

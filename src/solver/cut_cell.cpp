@@ -99,15 +99,21 @@ double integral_over_cut(const std::vector<Point>& corners, const Function& f) {
   return sum;
 }
 
+/// A body 1/300 as thick as a cell is still resolved; around a wire much thinner a cell would fall into millions of
+/// parts, and what a radius of 1e-30 asks for is below the last digit of coordinates.
+constexpr int most_bisections = 40;
+
 /// Cut by the linear interpolant, then moved by the distance that remains between that cut and the surface: an error of
 /// fourth order in size / radius, 2e-7 of the body's volume at the largest size that is not bisected.
 template <int D>
-double measure_inside(const Simplex<D>& s, const Round& round, const Volume<D>& volume) {
+double measure_inside(const Simplex<D>& s, const Round& round, const Volume<D>& volume,
+                      int bisections = most_bisections) {
   const double size = longest_edge<D>(s), whole = volume(s);
   if (const double d = round(s[0]); std::abs(d) > size) return d > 0 ? whole : 0;
-  if (size > 0.08 * round.radius) {
+  if (size > 0.08 * round.radius && bisections > 0) {
     const auto [first, second] = bisect_longest_edge<D>(s);
-    return measure_inside<D>(first, round, volume) + measure_inside<D>(second, round, volume);
+    return measure_inside<D>(first, round, volume, bisections - 1) +
+           measure_inside<D>(second, round, volume, bisections - 1);
   }
   const Cut<D> cut = cut_linear<D>(s, round);
   double inside = 0;

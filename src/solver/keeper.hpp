@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "math/errors.hpp"
+#include "math/field_info.hpp"
+
 namespace cobasis {
 
 /// `width` numbers for each of some owned cells, which may come several times and are in ascending order.
@@ -14,6 +17,7 @@ struct CellRows {
   int width = 1;
   std::vector<std::int32_t> cells;
   std::vector<double> values;
+  double least = -infinity, most = infinity;  ///< what values may be; those of whole numbers lose what they have beyond
 
   void add(std::int32_t cell, std::initializer_list<double> row) {
     cells.push_back(cell);
@@ -46,7 +50,14 @@ class Keeper {
   void whole_number(const std::string& name, std::int64_t& value) {
     auto x = static_cast<double>(value);
     number(name, x);
-    value = static_cast<std::int64_t>(x);
+    value = whole(name, x);
+  }
+
+ protected:
+  /// Throws SystemError for what is no whole number that a double holds exactly.
+  static std::int64_t whole(const std::string& name, double x) {
+    if (!(x >= -0x1p53 && x <= 0x1p53)) throw SystemError("cannot read '" + name + "': no whole number");
+    return static_cast<std::int64_t>(x);
   }
 };
 

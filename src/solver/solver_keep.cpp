@@ -33,7 +33,7 @@ void Solver::keep(Keeper& keeper) {
     for (std::size_t c = 0; c < booked_[k].size() && !fields_.phases[k].is_void; ++c)
       keeper.boundary_faces("booked." + fields_.phases[k].name + "." + std::to_string(c), booked_[k][c]);
 
-  CellRows rows{1, {}, {}};
+  CellRows rows{1, {}, {}, 0, fields_.n_phases() - 1.0};
   for (const auto& [cell, k] : followers_) rows.add(cell, {static_cast<double>(k)});
   keeper.some_cells("followers", rows);
   if (keeper.reads()) {
@@ -88,7 +88,7 @@ void Solver::keep_derived(Keeper& keeper) {
     }
     return only;
   };
-  CellRows rows{1, {}, {}};
+  CellRows rows{1, {}, {}, -1, fields_.n_phases() - 1.0};
   for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) {
     const int pure = derived_pure(cell);
     if (keeper.reads())
@@ -114,7 +114,7 @@ void Solver::derive_primitives(int k) {
 }
 
 void Caution::keep(Keeper& keeper, const Mesh& mesh, std::int64_t step) {
-  CellRows rows{1, {}, {}};
+  CellRows rows{1, {}, {}, 0, 0x1p53};
   for (std::int32_t cell = 0; cell < mesh.n_owned; ++cell)
     if (until_[cell] > step) rows.add(cell, {static_cast<double>(until_[cell])});
   keeper.some_cells("caution", rows);
@@ -131,7 +131,7 @@ void SharpInterface::keep(Keeper& keeper) {
   keeper.whole_number("planes_step", step_);
   settled_ = settled != 0;
   for (const int k : planes_of_) {
-    CellRows normals{3, {}, {}};
+    CellRows normals{3, {}, {}, -1.1, 1.1};
     for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell)
       if (valid(k, cell) && !keeper.reads()) {
         const Point& n = cells_[k][cell].plane.n;

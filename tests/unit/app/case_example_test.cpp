@@ -218,7 +218,8 @@ TEST_CASE("numbers of a case do not depend on the locale") {
   };
   const std::locale before = std::locale::global(std::locale(std::locale::classic(), new Comma));
   const std::string said = mistakes_in(example, {{{"cfl", "2.5"}}, ""});
-  const Setup setup = read_text(example, {{{"end_time", "1234.5"}, {"region.0.velocity", "[\"1.5\", 0]"}}, ""});
+  const Setup setup = read_text(
+      example, {{{"end_time", "1234.5"}, {"output.every", "0.5"}, {"region.0.velocity", "[\"1.5\", 0]"}}, ""});
   std::locale::global(before);
   CHECK(setup.end_time == 1234.5);
   CHECK(setup.cfl == 0.8);

@@ -1,4 +1,7 @@
+#include <sys/resource.h>
+
 #include <catch2/catch.hpp>
+#include <csignal>
 
 #include "app/checkpoint_file.hpp"
 #include "app/checkpoint_identity.hpp"
@@ -58,13 +61,24 @@ TEST_CASE("a checkpoint file that is never finished, or cannot be written, leave
   CHECK(std::distance(std::filesystem::directory_iterator(scratch.path), {}) == 1);
   CHECK_THROWS_WITH(CheckpointFileWriter((scratch.path / "no/a.h5").string()),
                     Contains("no/a.h5': No such file or directory"));
-  std::filesystem::create_symlink("/dev/full", path + ".part");
   const auto fill = [&] {
-    CheckpointFileWriter file(path);
-    file.write("x", std::vector<double>(1 << 20));
-    file.finish();
+    rlimit former{};
+    getrlimit(RLIMIT_FSIZE, &former);
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{1 << 16, former.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+    std::string said;
+    try {
+      CheckpointFileWriter file(path);
+      file.write("x", std::vector<double>(1 << 20));
+      file.finish();
+    } catch (const SystemError& error) {
+      said = error.what();
+    }
+    setrlimit(RLIMIT_FSIZE, &former);
+    return said;
   };
-  CHECK_THROWS_WITH(fill(), Contains("cannot write '" + path + "': No space left on device"));
+  CHECK_THAT(fill(), Contains("cannot write '" + path + "': File too large"));
   CHECK(CheckpointFileReader(path).read("x") == std::vector<double>{1});
   CHECK(std::distance(std::filesystem::directory_iterator(scratch.path), {}) == 1);
 }

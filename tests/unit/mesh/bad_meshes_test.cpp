@@ -1,5 +1,6 @@
 #include <regex>
 
+#include "mesh/msh_check.hpp"
 #include "mesh_files.hpp"
 #include "mixed_mesh.hpp"
 
@@ -140,4 +141,35 @@ TEST_CASE("a boundary element in two groups is refused") {
   CHECK_THAT(error_of_mesh(mesh), Contains("physical groups") && Contains("wall") && Contains("'9'"));
   CHECK_THAT(error_of_text("a.geo", strip_geo(2, 2) + "Physical Curve(\"all\") = {1, 2, 3, 4};"),
              Contains("two physical groups") && Contains("bottom") && Contains("all"));
+}
+
+TEST_CASE("only sections that a mesh has are accepted, each once, and only those needed reach Gmsh") {
+  const std::string text = mixed_mesh(0).text();
+  for (const std::string wrong : {"$View\n$EndView\n", "$PostFormat\n1.4 0 8\n$EndPostFormat\n", "SystemCall \"ls\";\n",
+                                  "$NOD\n1\n$ENDNOD\n", "$\n", "$Nodes\n1\n1 0 0 0\n$EndNodes\n"}) {
+    INFO(wrong);
+    CHECK_THAT(error_of_text("a.msh", text + wrong), Contains("a.msh: "));
+    CHECK_THAT(error_of_text("a.msh", replaced(text, "$Nodes", wrong + "$Nodes")), Contains("a.msh: "));
+  }
+  const std::string more = "$Comments\n$View\nSystemCall \"ls\";\n$EndComments\n$NodeData\n1\n\"x\"\n$EndNodeData\n";
+  CHECK(check_msh("a.msh", text + more) == text);
+  CHECK(error_of_text("a.msh", text + more).empty());
+}
+
+TEST_CASE(
+    "a header that announces more nodes than there are particles on earth is refused before memory is asked for") {
+  const std::string text = mixed_mesh(0).text();
+  for (const std::string count : {"1000000000000000", "18446744073709551615", "99999999999999999999999"})
+    CHECK_THAT(error_of_text("a.msh", replaced(text, "$Nodes\n17", "$Nodes\n" + count)), Contains("more than a file"));
+}
+
+TEST_CASE("a quadrilateral whose sides cross about the axis has no volume around it") {
+  MshText mesh;  // of its two triangles one counts as negative: the centroid lies below the axis
+  mesh.nodes = {{3.75, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}};
+  mesh.cells = {{CellType::quadrilateral, {0, 1, 2, 3}}};
+  const Folder folder;
+  MeshRequest request;
+  request.file = folder.write("a.msh", mesh.text());
+  request.axisymmetric = true;
+  CHECK_THAT(error_of(request), Contains("element ") && Contains("has no volume around the axis"));
 }

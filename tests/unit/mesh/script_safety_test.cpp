@@ -5,6 +5,7 @@
 
 #include "mesh/child_process.hpp"
 #include "mesh_files.hpp"
+#include "mixed_mesh.hpp"
 
 using namespace cobasis;
 using Catch::Contains;
@@ -76,4 +77,36 @@ TEST_CASE("a confined child can read but neither write nor start programs") {
   CHECK(result.bytes == std::vector<char>{1, 0, 0, 0, 0, 0});
   CHECK(std::filesystem::exists(old));
   CHECK_FALSE(std::filesystem::exists(fresh));
+}
+
+TEST_CASE("a script beside the mesh, which Gmsh would run, is not read unless trusted") {
+  const Folder folder;
+  const std::string trace = folder.path("trace");
+  const std::string evil = "Mesh.ElementOrder = 2; SystemCall \"touch " + trace + "\";\n";
+  MeshRequest request;
+  request.file = folder.write("a.geo", strip_geo(2, 2));
+  folder.write("a.geo.opt", evil);
+  folder.write("b.msh.opt", evil);
+  const Mesh mesh = read_mesh(request, test_mpi());
+  REQUIRE(mesh.notices.size() == 1);
+  CHECK_THAT(mesh.notices[0], Contains("a.geo.opt is not read") && Contains("--trust-geo"));
+  CHECK(read(folder.write("b.msh", mixed_mesh(0).text())).notices.empty());
+  CHECK_FALSE(std::filesystem::exists(trace));
+  request.trust_geo = true;
+  read_mesh(request, test_mpi());
+  CHECK(std::filesystem::exists(trace));
+}
+
+TEST_CASE("a script of a hundred thousand words is read in little time") {
+  std::string script = strip_geo(2, 2);
+  for (int i = 0; i < 100000; ++i) script += "Printf ";
+  CHECK_THAT(error_of_text("a.geo", script + "SystemCall \"ls\";"), Contains("'SystemCall'"));
+}
+
+TEST_CASE("a script that asks for a trillion cells is refused, not the machine brought down") {
+  MeshRequest request;
+  const Folder folder;
+  request.file = folder.write("a.geo", strip_geo(2, 2));
+  request.parameters = {{"nx", 2e9}, {"ny", 500}};
+  CHECK_FALSE(error_of(request).empty());
 }

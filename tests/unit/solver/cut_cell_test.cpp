@@ -158,3 +158,22 @@ TEST_CASE("a physical group takes its cells whole") {
     CHECK(inside_fraction(PhysicalGroup{"body"}, mesh, cell) == (mesh.cell_region[cell] == 0 ? 1 : 0));
   }
 }
+
+TEST_CASE("a body far thinner than a cell is next to nothing, and costs next to nothing") {
+  for (const CellType type :
+       {CellType::triangle, CellType::quadrilateral, CellType::tetrahedron, CellType::hexahedron}) {
+    const Mesh mesh = sample_cells(type, 2, 0.2);
+    const double z = mesh.dimension == 2 ? 0 : 0.3;
+    for (const double radius : {1e-9, 1e-30, 5e-324}) {
+      CHECK(volume_inside(Sphere{{0.3, 0.3, z}, radius}, mesh) < 1e-9);
+      if (mesh.dimension == 3) CHECK(volume_inside(Cylinder{{0.3, 0.3, z}, {0.8, 0.7, 0.6}, radius}, mesh) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("a sphere of a three-hundredth of a cell still has its volume") {
+  const Mesh mesh = sample_cells(CellType::hexahedron, 1);
+  const double radius = 1.0 / 300;
+  CHECK(volume_inside(Sphere{{0.4, 0.45, 0.52}, radius}, mesh) ==
+        Approx(4 * pi / 3 * radius * radius * radius).epsilon(1e-6).margin(0));
+}
