@@ -142,7 +142,7 @@ void check_exchange(const Mesh& mesh) {
       CHECK(neighbour.receive_first == mesh.n_owned + received);
       const std::span<const double> ids = exchange.incoming(n);
       REQUIRE(std::ssize(ids) == neighbour.receive_count);
-      for (std::size_t i = 0; i < ids.size(); ++i) 
+      for (std::size_t i = 0; i < ids.size(); ++i)
         CHECK(ids[i] == static_cast<double>(mesh.global_id[neighbour.receive_first + i]));
       received += neighbour.receive_count;
     }
