@@ -96,12 +96,12 @@ std::string command_for(const StudyReport& report, const StudyMesh& mesh) {
   std::string text = report.ranks > 1 ? fmt::format("mpirun -n {} ", report.ranks) : "";
   text += fmt::format("cobasis run {} --set", quoted(report.case_file));
   const auto& own = report.runs.back().mesh.parameters;
-  for (const auto& [key, value] : report.settings) {
+  for (const auto& setting : report.settings) {
     const auto replaced = [&](const auto& parameter) {
-      return key == "mesh_parameters." + parameter.first && parameter.second != own.at(parameter.first);
+      return setting.first == "mesh_parameters." + parameter.first && parameter.second != own.at(parameter.first);
     };
     if (std::ranges::none_of(mesh.parameters, replaced))
-      text += fmt::format(" {}", quoted(fmt::format("{}={}", key, value)));
+      text += fmt::format(" {}", quoted(fmt::format("{}={}", setting.first, setting.second)));
   }
   for (const auto& [name, value] : mesh.parameters)
     if (value != own.at(name))

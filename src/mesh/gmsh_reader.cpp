@@ -246,6 +246,7 @@ RawMesh work_in_gmsh(const MeshRequest& request, bool script, const std::string&
   for (const auto& [name, value] : request.parameters)
     arguments.insert(arguments.end(), {"-setnumber", name, fmt::format("{}", value)});
   std::vector<char*> argv;
+  argv.reserve(arguments.size());
   for (std::string& argument : arguments) argv.push_back(argument.data());
   try {
     gmsh::initialize(static_cast<int>(argv.size()), argv.data(), false);

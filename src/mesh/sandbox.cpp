@@ -22,7 +22,7 @@ constexpr unsigned architecture = AUDIT_ARCH_AARCH64;
 constexpr unsigned architecture = 0;
 #endif
 
-constexpr unsigned argument(int i) { return offsetof(seccomp_data, args) + 8 * i; }
+constexpr unsigned argument(unsigned i) { return unsigned{offsetof(seccomp_data, args)} + 8 * i; }
 
 // System calls that start programs or touch the outside, whatever their arguments.
 constexpr int refused[] = {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <ranges>
 #include <tuple>
 
 namespace cobasis {
@@ -161,24 +160,22 @@ void Reconstruction::exchange_slopes(const Mesh& mesh, Fields& fields, bool send
   if (!send) slope_exchange_->finish();
   for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
     const Neighbour& neighbour = mesh.neighbours[n];
-    const auto for_each_slope = [&](Phase& phase, int count, std::int32_t cell, const auto& visit) {
-      if (phase.is_void || (fields.multiphase() && !(phase.alpha[cell] > 0))) return;
-      visit(phase.slopes_known[cell]);
-      for (int c = 0; c < count; ++c) visit(phase.slopes.component(c)[cell]);
-    };
-    const auto for_each_cell = [&](const auto& cells, const auto& visit) {
-      for (const std::int32_t cell : cells)
-        for (std::size_t k = 0; k < fields.phases.size(); ++k)
-          for_each_slope(fields.phases[k], kernels_[k].n_slopes, cell, visit);
+    const auto visit_slopes = [&](std::int32_t cell, const auto& visit) {
+      for (std::size_t k = 0; k < fields.phases.size(); ++k) {
+        Phase& phase = fields.phases[k];
+        if (phase.is_void || (fields.multiphase() && !(phase.alpha[cell] > 0))) continue;
+        visit(phase.slopes_known[cell]);
+        for (int c = 0; c < kernels_[k].n_slopes; ++c) visit(phase.slopes.component(c)[cell]);
+      }
     };
     if (send) {
       std::vector<double>& out = slope_exchange_->outgoing(n);
       out.clear();
-      for_each_cell(neighbour.send, [&](double value) { out.push_back(value); });
+      for (const std::int32_t cell : neighbour.send) visit_slopes(cell, [&](double value) { out.push_back(value); });
     } else {
       const double* in = slope_exchange_->incoming(n).data();
-      for_each_cell(std::views::iota(neighbour.receive_first, neighbour.receive_first + neighbour.receive_count),
-                    [&](double& value) { value = *in++; });
+      for (std::int32_t i = 0; i < neighbour.receive_count; ++i)
+        visit_slopes(neighbour.receive_first + i, [&](double& value) { value = *in++; });
     }
   }
   if (send) slope_exchange_->start();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "mesh/geometry.hpp"
 #include "solver/interfaces.hpp"
@@ -84,23 +83,23 @@ SharpInterface::SharpInterface(const Mpi& mpi, const Mesh& mesh, const Faces& fa
 
 void SharpInterface::exchange_blends() {
   if (mesh_.neighbours.empty()) return;
-  const auto for_each = [&](const auto& cells, const auto& visit) {
-    for (const std::int32_t cell : cells)
-      for (const int k : planes_of_)
-        if (valid(k, cell) && cells_[k][cell].ring == -1) visit(cells_[k][cell].blend);
+  const auto visit_blends = [&](std::int32_t cell, const auto& visit) {
+    for (const int k : planes_of_)
+      if (valid(k, cell) && cells_[k][cell].ring == -1) visit(cells_[k][cell].blend);
   };
   for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
     std::vector<double>& out = exchange_.outgoing(i);
     out.clear();
-    for_each(mesh_.neighbours[i].send, [&](double blend) { out.push_back(blend); });
+    for (const std::int32_t cell : mesh_.neighbours[i].send)
+      visit_blends(cell, [&](double blend) { out.push_back(blend); });
   }
   exchange_.start();
   exchange_.finish();
   for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
     const double* in = exchange_.incoming(i).data();
     const Neighbour& neighbour = mesh_.neighbours[i];
-    for_each(std::views::iota(neighbour.receive_first, neighbour.receive_first + neighbour.receive_count),
-             [&](double& blend) { blend = *in++; });
+    for (std::int32_t j = 0; j < neighbour.receive_count; ++j)
+      visit_blends(neighbour.receive_first + j, [&](double& blend) { blend = *in++; });
   }
 }
 

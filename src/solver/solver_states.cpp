@@ -208,7 +208,8 @@ void Solver::relax_dust() {
     if (k == void_phase) continue;
     const auto& alpha = fields_.phases[k].alpha;
     for (const std::int32_t cell : touched_cells_.span())
-      if (alpha[cell] > 0 && alpha[cell] < dust) torn_ += relax_to_void(fields_, k, void_phase, cell, tolerance);
+      if (alpha[cell] > 0 && alpha[cell] < largest_dust)
+        torn_ += relax_to_void(fields_, k, void_phase, cell, tolerance);
   }
 }
 

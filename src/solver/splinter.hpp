@@ -6,9 +6,9 @@
 
 namespace cobasis {
 
-/// Splinters are volume fractions below this, of inadmissible states; below `dust` also of states far from the void's
-/// pressure: what an update leaves of a phase in so little volume may be any density.
-inline constexpr double largest_splinter = 0.5, dust = 1e-3;
+/// Splinters are volume fractions below this, of inadmissible states; below `largest_dust` also of states far from the
+/// void's pressure: what an update leaves of a phase in so little volume may be any density.
+inline constexpr double largest_splinter = 0.5, largest_dust = 1e-3;
 
 /// Gives phase k of a cell the volume v' m at which p(1 / v', e') = p0, e' = e^h - p0 (v' - v): the work is done by the
 /// void, whose volume fraction makes room, so that E - p0 V of the void stays. The cobasis is stretched alike in all

@@ -125,9 +125,9 @@ Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Bou
   return stencil;
 }
 
-bool Stencil::averages_in(std::int32_t cell) const {
+bool Stencil::averages_in(std::int32_t owned_cell) const {
   double shares = 0;
-  for (int j = 0; j < size; ++j) shares += average[static_cast<std::size_t>(j) * stride + cell];
+  for (int j = 0; j < size; ++j) shares += average[static_cast<std::size_t>(j) * stride + owned_cell];
   return shares > 0;
 }
 

@@ -51,7 +51,7 @@ void benchmark(const std::string& name, const std::string& scene, int steps) {
     single = {std::min(single.seconds, s.seconds), std::min(single.kernels, s.kernels),
               std::min(single.sweeps, s.sweeps)};
   }
-  const double cells = packs.mesh.n_global, faces = packs.mesh.n_faces();
+  const double cells = static_cast<double>(packs.mesh.n_global), faces = packs.mesh.n_faces();
   const int equations = packs.solver->equations();
   std::cout << fmt::format("{:<34} {:>8} {:>4} {:>6} {:>9.1f} {:>9.2f} {:>9.1f} {:>7.1f} {:>7.1f} {:>6.0f}\n", name,
                            packs.mesh.n_global, equations, bytes_per_cell(packs.solver->fields()),

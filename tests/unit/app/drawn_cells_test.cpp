@@ -71,7 +71,7 @@ TEST_CASE("a plane along faces shows the layer below it, and of cells that it on
 
 TEST_CASE("a plane along faces whose corners are off it by round-off shows one layer all the same") {
   Mesh mesh = squares(8, 4, 0.125);
-  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) mesh.nodes[i].y += (i % 3 - 1.0) * 1e-16;
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) mesh.nodes[i].y += (static_cast<int>(i % 3) - 1) * 1e-16;
   CHECK(draw_cut(mesh, {0, 0.25, 0}, {0, 1, 0}).cell == std::vector<std::int32_t>{8, 9, 10, 11, 12, 13, 14, 15});
 }
 

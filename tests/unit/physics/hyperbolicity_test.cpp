@@ -14,7 +14,7 @@ using namespace cobasis;
 namespace {
 
 // alpha, rho, u, v, w, a^1 a^2 a^3, b^1 ..., c^1 ..., p
-constexpr int n = 15, alpha = 0, rho = 1, u = 2, a = 5, b = 8, c = 11, p = 14;
+constexpr int n = 15, alpha = 0, rho = 1, u = 2, a = 5, p = 14;
 using Matrix = Eigen::Matrix<double, n, n>;
 
 /// A phase and what it meets at an interface.

@@ -82,8 +82,8 @@ RawMesh row(CellType type, int n, const Move& move) {
   }
   for (const auto& [key, entry] : faces) {
     if (entry.first != 1) continue;
-    const auto all_at = [&](double x) {
-      return std::all_of(key.begin(), key.end(), [&](int node) { return place[node].x == x; });
+    const auto all_at = [&place, &nodes_of_face = key](double x) {
+      return std::ranges::all_of(nodes_of_face, [&](int node) { return place[node].x == x; });
     };
     raw.side_nodes.push_back(entry.second);
     raw.side_tag.push_back(static_cast<std::int64_t>(raw.side_tag.size()) + 1);
