@@ -3,8 +3,11 @@
 // given.
 #include <unistd.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cctype>
 #include <set>
+#include <sstream>
 
 #include "program.hpp"
 
@@ -91,14 +94,31 @@ TEST_CASE("the two commands for people are there, can be executed and explain th
   CHECK(folder.contents().empty());
 }
 
-TEST_CASE("the files that the documents link to exist") {
+/// As links name them: small letters, a hyphen for a space.
+bool has_heading(const std::string& text, const std::string& name) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("#")) continue;
+    std::string slug;
+    for (const char c : line.substr(std::min(line.size(), line.find(' ') + 1)))
+      if (std::isalnum(static_cast<unsigned char>(c)) || c == ' ' || c == '-')
+        slug += c == ' ' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (slug == name) return true;
+  }
+  return false;
+}
+
+TEST_CASE("the files and headings that the documents link to exist") {
   for (const std::string document : {"README.md", "src/README.md", "cases/README.md", "CHANGELOG.md"}) {
     const std::string text = contents_of(SOURCE_DIR "/" + document);
     const fs::path here = fs::path(SOURCE_DIR "/" + document).parent_path();
     for (auto at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
       const std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
       CAPTURE(document, target);
-      if (!target.starts_with("http")) CHECK(fs::exists(here / target));
+      if (target.starts_with("#"))
+        CHECK(has_heading(text, target.substr(1)));
+      else if (!target.starts_with("http"))
+        CHECK(fs::exists(here / target));
     }
   }
 }

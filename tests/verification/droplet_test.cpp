@@ -108,9 +108,9 @@ TEST_CASE("a neo-Hookean droplet spreads to a lamella of three cells: its cobasi
   Changes changes = {{"mesh_parameters", "{ h = 0.3e-3, outer = 7 }"}};
   changes.emplace_back("region.1.velocity", "[-6.0, 0]");
   changes.emplace_back("phase.carbopol.elastic.a", "-1.0");
-  const Droplet droplet = run(changes, 5e-3, 5e-3);
-  CAPTURE(droplet.kinetic, droplet.elastic, droplet.r95);
-  CHECK(droplet.r95 > 5);
+  const Droplet droplet = run(changes, 3e-3, 5e-3);
+  CAPTURE(droplet.kinetic, droplet.elastic, droplet.largest_r95);
+  CHECK(droplet.largest_r95 > 5);
   CHECK(droplet.kinetic + droplet.elastic > 0.5);
   CHECK(droplet.kinetic + droplet.elastic < 1);
 }

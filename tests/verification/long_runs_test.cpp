@@ -121,7 +121,7 @@ TEST_CASE("a tube that breathes deeply is faster, as the exact solution says") {
   CHECK(deep.period(1) == Approx(4.2269).epsilon(0.01));
 }
 
-TEST_CASE("a plate vibrates with the period of a Lagrangian computation; what it loses falls with the mesh") {
+TEST_CASE("a plate vibrates with the period of a Lagrangian computation, and loses less on a finer mesh") {
   const Swing coarse = plate(34, 4, 1, 40e-6), fine = plate(68, 4, 1, 40e-6);
   CAPTURE(coarse.period(5e-6), fine.period(5e-6), coarse.loss(5e-6), fine.loss(5e-6));
   CHECK(fine.period(5e-6) == Approx(29.99e-6).epsilon(0.01));
