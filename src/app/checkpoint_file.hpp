@@ -32,8 +32,8 @@ class CheckpointFileWriter {
 /// Why the file is none that this program can read, in words; empty: it is whole.
 std::string what_is_wrong_with_checkpoint(const std::string& path);
 
-/// Of a file that is anybody's. Every member throws SystemError with path and reason, also where there is no such entry,
-/// or one that CheckpointFileWriter has not written.
+/// Of a file that is anybody's. Every member throws SystemError with path and reason, also where there is no such
+/// entry, or one that CheckpointFileWriter has not written.
 class CheckpointFileReader {
  public:
   explicit CheckpointFileReader(std::string path);

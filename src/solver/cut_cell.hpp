@@ -13,10 +13,11 @@ namespace cobasis {
 ///
 /// half_space, box: exact to round-off, also for hexahedra, prisms and pyramids with warped faces: the cell is the
 /// union of the simplices by which the mesh measures its volume. sphere, cylinder: relative error of the body's volume
-/// below 1e-6, on any mesh whose cells are not 300 times as large as it is thick. An `inside` condition only says yes or no: error about 1e-3 of a cell that is cut (1e-2 in
-/// the worst), and what holds at none of a cell's corners and of the midpoints between two of them goes unseen. In a
-/// plane the z of points is ignored; in an axisymmetric mesh fractions are of the volumes of rings. `cell` is an owned
-/// or a halo cell. A physical group that the mesh has not: fraction 0 (paint refuses it before).
+/// below 1e-6, on any mesh whose cells are not 300 times as large as it is thick. An `inside` condition only says yes
+/// or no: error about 1e-3 of a cell that is cut (1e-2 in the worst), and what holds at none of a cell's corners and of
+/// the midpoints between two of them goes unseen. In a plane the z of points is ignored; in an axisymmetric mesh
+/// fractions are of the volumes of rings. `cell` is an owned or a halo cell. A physical group that the mesh has not:
+/// fraction 0 (paint refuses it before).
 double inside_fraction(const Shape& shape, const Mesh& mesh, std::int32_t cell);
 
 }  // namespace cobasis

@@ -22,7 +22,7 @@ namespace cobasis {
 struct ExchangeCounters {
   std::int64_t exchanges = 0;
   std::int64_t kept = 0;  ///< small volumes that found no partner and stayed, summed over steps
-  std::int64_t dust = 0;  ///< volumes below 1e-11 whose content went to a neighbour without volume
+  std::int64_t dust = 0;  ///< volumes too small to matter whose content went to a neighbour without volume
 };
 
 /// What a phase has in a cell in total: mass, momentum, energy [kg, kg m/s, J], and volume times cobasis [m^3].
