@@ -10,7 +10,7 @@ namespace cobasis {
 namespace {
 
 std::string type_of(const KeyInfo& info) {
-  const std::string words = fmt::format("{}", fmt::join(info.words, ", "));
+  std::string words = fmt::format("{}", fmt::join(info.words, ", "));
   switch (info.kind) {
     case KeyKind::integer:
       return "a whole number";

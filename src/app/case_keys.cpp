@@ -16,13 +16,13 @@ namespace cobasis {
 namespace {
 
 template <class Owner>
-KeyInfo key_of(const FieldInfo<Owner>& field, bool required, std::string fallback) {
+KeyInfo key_of(const FieldInfo<Owner>& field, bool required, const std::string& fallback) {
   return {.key = std::string(field.key),
           .kind = KeyKind::number,
           .unit = std::string(field.unit),
           .range = {field.low, field.high, field.low_closed, field.high_closed},
           .required = required,
-          .fallback = std::move(fallback),
+          .fallback = fallback,
           .meaning = std::string(field.meaning)};
 }
 

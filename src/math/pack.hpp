@@ -45,6 +45,12 @@ inline Pack select(const Pack::mask_type& mask, const Pack& yes, Pack no) {
 }
 inline Pack select(const Pack::mask_type& mask, const Pack& yes, double no) { return select(mask, yes, Pack(no)); }
 
+/// Whether a value is not a number.
+template <class Real>
+Mask<Real> is_nan(const Real& value) {
+  return value != value;  // NOLINT(misc-redundant-expression)
+}
+
 inline bool any(bool mask) { return mask; }
 inline bool any(const Pack::mask_type& mask) { return any_of(mask); }
 

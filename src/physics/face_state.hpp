@@ -151,7 +151,7 @@ SolidFace<G, Real> behind_wall(SolidFace<G, Real> s, const Vector<G, Real>& wall
 /// The larger of two speeds; not a number if one of them is not.
 template <class Real>
 Real faster(const Real& a, const Real& b) {
-  return select((a > b) || (a != a), a, b);
+  return select((a > b) || is_nan(a), a, b);
 }
 
 /// |u_n| + the fastest wave: bounds the step.

@@ -48,7 +48,7 @@ std::array<Real, G::dimension> stress_divergence(
     const auto along = [&](int v) { return Number(w[v], gradient[v][d]); };
     const Symmetric<G, Number> g = normalised_metric(make_cobasis<G>([&](int c) { return along(P::e + c); }));
     const Symmetric<G, Number> S = deviatoric_stress<G, Number>(material, along(P::rho), g);
-    const auto add = [&](const auto& S_xd, const auto& S_yd, const auto& S_zd) {
+    const auto add = [&](const auto& S_xd, const auto& S_yd, [[maybe_unused]] const auto& S_zd) {
       force[0] = force[0] + S_xd.slope;
       force[1] = force[1] + S_yd.slope;
       if constexpr (G::dimension == 3) force[2] = force[2] + S_zd.slope;

@@ -67,7 +67,7 @@ COBASIS_KERNEL double largest_step(const Faces& faces, const AlignedVector<doubl
       sum = sum + gather<Real>(faces.area.data(), face) * gather<Real>(faces.fastest.data(), face);
     }
     const Real step = 2.0 * gather<Real>(volume.data(), at) / sum;
-    if (any(step != step)) [[unlikely]]
+    if (any(is_nan(step))) [[unlikely]]
       return 0;
     smallest = smaller(smallest, step);
   }

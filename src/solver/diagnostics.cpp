@@ -1,10 +1,12 @@
 // What a run tells of itself: snapshots, totals, shares.
+#include <array>
+
 #include "solver/solver.hpp"
 
 namespace cobasis {
 namespace {
 
-constexpr const char* axis_names[] = {"x", "y", "z"};
+constexpr std::array axis_names = {"x", "y", "z"};
 
 Symmetric<Space, double> metric_of(const Phase& phase, int dimension, std::int32_t cell) {
   const Indices<double> at{cell};
@@ -124,7 +126,7 @@ std::vector<Column> Solver::totals() const {
       return [&, i](std::int32_t c) { return phase.conserved[i][c] * fields_.volume[c]; };
     };
     total("mass." + phase.name, "kg", conserved(0));
-    for (int i = 0; i < D; ++i) total("momentum." + phase.name + "." + axis_names[i], "kg m/s", conserved(1 + i));
+    for (int i = 0; i < D; ++i) total("momentum." + phase.name + "." + axis_names.at(i), "kg m/s", conserved(1 + i));
     total("energy." + phase.name, "J", conserved(1 + D));
     total("kinetic." + phase.name, "J", [&](std::int32_t c) {
       double u2 = 0;
@@ -152,7 +154,7 @@ std::vector<Column> Solver::totals() const {
       const std::string& phase = fields_.phases[k].name;
       if (fields_.phases[k].is_void) continue;
       outflow(k, 0, "mass." + phase, "kg");
-      for (int i = 0; i < D; ++i) outflow(k, 1 + i, "momentum." + phase + "." + axis_names[i], "kg m/s");
+      for (int i = 0; i < D; ++i) outflow(k, 1 + i, "momentum." + phase + "." + axis_names.at(i), "kg m/s");
       outflow(k, 1 + D, "energy." + phase, "J");
     }
   }

@@ -315,7 +315,7 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
     const auto cobasis_of = [&](const typename P::template State<Real>& s) {
       return make_cobasis<G>([&](int c) { return s[P::e + c]; });
     };
-    Mask<Real> good = w[P::rho] == w[P::rho];
+    Mask<Real> good = !is_nan(w[P::rho]);
     Real det_per_density(0.0);
     if constexpr (K == Kind::solid) det_per_density = determinant(cobasis_of(w)) / w[P::rho];
     for (int j = 0; j < faces.max_cell_faces; ++j) {

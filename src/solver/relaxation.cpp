@@ -92,7 +92,7 @@ double filled_after(const Volume& l, const Volume& m, double rest, double p_I, d
   while (left > 0 && std::fabs(rest - filled) > 1e-12 * std::fabs(rest - l.alpha)) {
     const double first = k(filled);
     if (!(first > 0)) break;
-    double step = std::min(left, 0.5 / first), middle = first;
+    double step = std::min(left, 0.5 / first), middle;
     for (;; step *= 0.5) {
       middle = k(rest - (rest - filled) * std::exp(-0.5 * first * step));
       if (!(std::fabs(middle - first) * step > 0.02) || step < 1e-9 * dt) break;

@@ -1,13 +1,14 @@
 // What of the solver must outlive it, so that the next one goes on with the same bits.
 #include <algorithm>
-#include <cstring>
+#include <bit>
+#include <cstdint>
 
 #include "solver/solver.hpp"
 
 namespace cobasis {
 namespace {
 
-bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
 }  // namespace
 
