@@ -30,22 +30,26 @@ struct AlignedAllocator {
 template <class T>
 using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 
-/// Uninitialised storage for n doubles; pages are taken from the system when they are first written.
+/// Storage for n doubles, at first 0; pages are taken from the system when they are first written.
 class RawStorage {
  public:
   RawStorage() = default;
   explicit RawStorage(std::size_t n)
-      : data_(n == 0 ? nullptr : static_cast<double*>(std::aligned_alloc(cache_line, (n + 8) / 8 * cache_line))) {
-    if (n != 0 && !data_) throw std::bad_alloc();
+      : block_(n == 0 ? nullptr : std::calloc(n + 2 * cache_line / sizeof(double), sizeof(double))) {
+    if (n == 0) return;
+    if (!block_) throw std::bad_alloc();
+    const auto address = reinterpret_cast<std::uintptr_t>(block_.get());
+    data_ = reinterpret_cast<double*>((address + cache_line - 1) / cache_line * cache_line);
   }
-  double* data() { return data_.get(); }
-  const double* data() const { return data_.get(); }
+  double* data() { return data_; }
+  const double* data() const { return data_; }
 
  private:
   struct Free {
-    void operator()(double* p) const { std::free(p); }
+    void operator()(void* p) const { std::free(p); }
   };
-  std::unique_ptr<double, Free> data_;
+  std::unique_ptr<void, Free> block_;
+  double* data_ = nullptr;
 };
 
 /// A list of fixed capacity with room for a pack beyond its end; nothing is initialised.

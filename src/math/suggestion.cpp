@@ -1,17 +1,19 @@
 #include "math/suggestion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
-#include <vector>
 
 namespace cobasis {
 namespace {
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
+constexpr std::size_t longest = 60;  ///< of what is compared: a table of distances takes no time whatever a file holds
+
 /// Letters to insert, delete, change or swap with their neighbour; upper and lower case are one.
 std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  std::array<std::array<std::size_t, longest + 1>, longest + 1> d;
   for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
   for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
   const auto same = [&](std::size_t i, std::size_t j) { return lower(a[i - 1]) == lower(b[j - 1]); };
@@ -32,7 +34,6 @@ bool begins(std::string_view name, std::string_view word) {
 }  // namespace
 
 std::optional<std::string> nearest_name(std::string_view word, std::span<const std::string> candidates) {
-  constexpr std::size_t longest = 200;  // the table of distances stays small whatever a file holds
   word = word.substr(0, longest);
   std::optional<std::string> nearest;
   std::size_t least = std::numeric_limits<std::size_t>::max();

@@ -3,6 +3,8 @@
 // is n; the other side's fluctuation has the opposite sign.
 #pragma once
 
+#include <array>
+
 #include "math/pack.hpp"
 #include "physics/scene_types.hpp"
 
@@ -32,6 +34,54 @@ Cobasis<G, Real> upwind(const Mask<Real>& from_left, const Cobasis<G, Real>& l, 
 template <class G, class Real>
 Cobasis<G, Real> operator*(const Real& s, const Cobasis<G, Real>& e) {
   return {s * e.e1, s * e.e2, s * e.e3};
+}
+
+/// How the vectors of one cobasis are turned among themselves against those of another: of r = l R with a rotation R
+/// by little, R - 1; its components 12 (, 13, 23). Bounded for any two.
+template <class G, class Real>
+std::array<Real, G::dimension == 2 ? 1 : 3> turn(const Cobasis<G, Real>& l, const Cobasis<G, Real>& r) {
+  const auto part = [](const auto& l_a, const auto& l_b, const auto& r_a, const auto& r_b) {
+    return dot(l_a, r_b) - dot(l_b, r_a);
+  };
+  const auto square = [](const Cobasis<G, Real>& e) {
+    const Real in_plane = dot(e.e1, e.e1) + dot(e.e2, e.e2);
+    if constexpr (G::dimension == 2)
+      return in_plane;
+    else
+      return in_plane + dot(e.e3, e.e3);
+  };
+  const Real scale = G::dimension / (square(l) + square(r));
+  if constexpr (G::dimension == 2)
+    return {scale * part(l.e1, l.e2, r.e1, r.e2)};
+  else
+    return {scale * part(l.e1, l.e2, r.e1, r.e2), scale * part(l.e1, l.e3, r.e1, r.e3),
+            scale * part(l.e2, l.e3, r.e2, r.e3)};
+}
+
+/// Turns the vectors of a cobasis among themselves, by the rotation (1 + Omega / 2) / (1 - Omega / 2): its metric, and
+/// so stress and energy, stay.
+template <int D, class Real, std::size_t N, std::size_t T>
+void turn_by(std::array<Real, N>& e, const std::array<Real, T>& omega) {
+  const auto times = [&](const std::array<Real, N>& v) {  // v Omega
+    std::array<Real, N> w;
+    if constexpr (D == 2) w[4] = Real(0.0);
+    for (int d = 0; d < D; ++d) {
+      if constexpr (D == 2) {
+        w[d] = -(v[2 + d] * omega[0]);
+        w[2 + d] = v[d] * omega[0];
+      } else {
+        w[d] = -(v[3 + d] * omega[0] + v[6 + d] * omega[1]);
+        w[3 + d] = v[d] * omega[0] - v[6 + d] * omega[2];
+        w[6 + d] = v[d] * omega[1] + v[3 + d] * omega[2];
+      }
+    }
+    return w;
+  };
+  Real square(0.0);
+  for (const Real& w : omega) square = square + w * w;
+  const Real scale = 1.0 / (1.0 + 0.25 * square);
+  const auto once = times(e), again = times(once);
+  for (std::size_t c = 0; c < N; ++c) e[c] = e[c] + scale * (once[c] + 0.5 * again[c]);
 }
 
 /// u (e_f - e_i): transport with the velocity u through the face.

@@ -8,6 +8,10 @@ namespace cobasis {
 /// e^e [J/kg]: 0 of a fluid; infinite where the cobasis of a solid is no deformation.
 double stored_energy(const Fields& fields, const Phase& phase, std::int32_t cell);
 
+/// rho E [J/m^3] of density, velocity, pressure and cobasis, as Primitives numbers them; not a number where the cobasis
+/// is no deformation.
+double total_energy(const Fields& fields, const Phase& phase, const double* primitives);
+
 /// e - u^2 / 2 [J/kg]
 double internal_energy(const Fields& fields, const Phase& phase, std::int32_t cell);
 

@@ -94,6 +94,8 @@ COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volu
     std::array<Real, L::n_cobasis> e;
     std::array<Real, D> u;
     std::array<std::array<Real, D>, D> deformation;  // sum A n (u* - u_cell)
+    [[maybe_unused]] std::array<Real, L::n_turn> turned;
+    turned.fill(Real(0.0));
     if constexpr (K == Kind::solid) {
       for (int c = 0; c < L::n_cobasis; ++c) e[c] = gather<Real>(phase.conserved[L::cobasis + c].data(), at);
       for (int d = 0; d < D; ++d) u[d] = gather<Real>(phase.primitive[L::u + d].data(), at);
@@ -120,6 +122,7 @@ COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volu
         for (int c = 0; c < L::n_cobasis; ++c)
           change[L::cobasis + c] = change[L::cobasis + c] + direction * (flux(L::flux_cobasis + c) - through * e[c]);
         const AlignedVector<double>* const normal[] = {&faces.nx, &faces.ny, &faces.nz};
+        for (int c = 0; c < L::n_turn; ++c) turned[c] = turned[c] - direction * flux(L::flux_turn + c);
         std::array<Real, D> du;
         for (int d = 0; d < D; ++d) du[d] = direction * (flux(L::flux_velocity + d) - area * u[d]);
         for (int d = 0; d < D; ++d) {
@@ -178,8 +181,11 @@ COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volu
       deform(e_change);
       for (int c = 0; c < L::n_cobasis; ++c) {
         const Real total = change[L::cobasis + c] - moved * e_change[c];
-        scatter(e[c] + cobasis_rate * total, phase.conserved[L::cobasis + c].data(), at);
+        e[c] = e[c] + cobasis_rate * total;
       }
+      for (auto& t : turned) t = rate * t;
+      turn_by<D>(e, turned);
+      for (int c = 0; c < L::n_cobasis; ++c) scatter(e[c], phase.conserved[L::cobasis + c].data(), at);
     }
   }
 }

@@ -2,6 +2,7 @@
 // the mesh lies.
 #pragma once
 
+#include "physics/smooth_flow.hpp"
 #include "solver/face_sweep.hpp"
 
 namespace cobasis {
@@ -11,25 +12,29 @@ struct ContactList {
   CompactList<std::int32_t> cell, cell_l, cell_m;  ///< where the contact acts; where the states are
   CompactList<double> area;                        ///< of the interface [m^2], in a plane [m]
   CompactList<double> normal[3];                   ///< unit normal from l to m
+  CompactList<double> at[3];                       ///< its centroid, relative to the cell's [m]
   CompactList<double> speed;                       ///< u* of the contact along it [m/s]
   double friction = 0;                             ///< Coulomb's coefficient, of solids that rub
 
   explicit ContactList(std::size_t capacity = 0)
       : cell(capacity), cell_l(capacity), cell_m(capacity), area(capacity), speed(capacity) {
     for (auto& component : normal) component = CompactList<double>(capacity);
+    for (auto& component : at) component = CompactList<double>(capacity);
   }
   void clear() {
     for (auto* list : {&cell, &cell_l, &cell_m}) list->clear();
-    for (auto* list : {&area, &normal[0], &normal[1], &normal[2]}) list->clear();
+    for (auto* list : {&area, &normal[0], &normal[1], &normal[2], &at[0], &at[1], &at[2]}) list->clear();
   }
-  void push(std::int32_t where, std::int32_t of_l, std::int32_t of_m, double surface, const Point& n) {
+  void push(std::int32_t where, std::int32_t of_l, std::int32_t of_m, double surface, const Point& n,
+            const Point& centroid = {0, 0, 0}) {
     cell.push(where), cell_l.push(of_l), cell_m.push(of_m), area.push(surface);
     normal[0].push(n.x), normal[1].push(n.y), normal[2].push(n.z);
+    at[0].push(centroid.x), at[1].push(centroid.y), at[2].push(centroid.z);
   }
   /// Repeats the last entry up to a whole pack.
   void fill() {
     for (auto* list : {&cell, &cell_l, &cell_m}) list->fill(pack_width);
-    for (auto* list : {&area, &normal[0], &normal[1], &normal[2]}) list->fill(pack_width);
+    for (auto* list : {&area, &normal[0], &normal[1], &normal[2], &at[0], &at[1], &at[2]}) list->fill(pack_width);
   }
 };
 
@@ -61,6 +66,55 @@ Face<G, K, Real> contact_side(const Phase& phase, const Indices<Real>& cell, con
   return load_face_state<G>(side, load_cobasis_of<G, K>(side), frame);
 }
 
+/// The state where the contact is, by the slopes of its cell; the cell's own where they say another volume of e.
+template <class G, Kind K, class Real>
+struct SlopedSide {
+  using P = Primitives<G, K>;
+  const Phase& phase;
+  Indices<Real> cell;
+  typename P::template State<Real> w;
+  Real scale;  ///< of the metric
+
+  SlopedSide(const Phase& of, const Indices<Real>& in, const ContactList& list, std::int32_t i) : phase(of), cell(in) {
+    auto mean = mean_state<G, K, Real>(phase, cell);
+    w = mean;
+    for (int d = 0; d < G::dimension; ++d) {
+      const Real r = load<Real>(&list.at[d][i]) - gather<Real>(phase.centre.component(d), cell);
+      for (int v = 0; v < P::size; ++v)
+        w[v] = w[v] + r * gather<Real>(phase.used_slopes.component(v * G::dimension + d), cell);
+    }
+    Mask<Real> good = w[P::rho] > Real(0.0);
+    if constexpr (K == Kind::solid) {
+      const Real det = determinant(cobasis_of(w)), expected = determinant(cobasis_of(mean));
+      good = good && det > least_det * expected && det < most_det * expected;
+    }
+    for (int v = 0; v < P::size; ++v) w[v] = select(good, w[v], mean[v]);
+    if constexpr (K == Kind::solid) scale = metric_scale(cobasis_of(w));
+  }
+  static auto cobasis_of(const typename P::template State<Real>& s) {
+    return make_cobasis<G>([&](int c) { return s[P::e + c]; });
+  }
+  template <class L>
+  Real primitive(int c) const {
+    if (c < P::e) return w[c];
+    if constexpr (K == Kind::solid)
+      if (c == L::metric_scale) return scale;
+    return gather<Real>(phase.primitive[c].data(), cell);
+  }
+  template <class L>
+  Real cobasis(int c) const {
+    return w[P::e + c];
+  }
+};
+
+template <class G, Kind K, class Real>
+Face<G, K, Real> sloped_contact_side(const Phase& phase, const Indices<Real>& cell, const Frame<G, Real>& frame,
+                                     const ContactList& list, std::int32_t i) {
+  if (phase.used_slopes.stride == 0) return contact_side<G, K, Real>(phase, cell, frame);
+  const SlopedSide<G, K, Real> side(phase, cell, list, i);
+  return load_face_state<G>(side, load_cobasis_of<G, K>(side), frame);
+}
+
 /// Adds to what a contact does to a phase in its cells, see Layout.
 template <class G, Kind K, class Real>
 void add_in_cell(Phase& phase, const Indices<Real>& cell, int c, const Real& value) {
@@ -71,7 +125,7 @@ void add_in_cell(Phase& phase, const Indices<Real>& cell, int c, const Real& val
 /// The phase's side of a contact at u*, P*, along its own outward normal frame.n; w: its tangential velocity there.
 template <class G, Kind K, class Real, class Star, class Tangential>
 void act_in_cell(Phase& phase, const Indices<Real>& cell, const Frame<G, Real>& frame, const Real& outward_area,
-                 const Star& star, const Face<G, K, Real>& s, const Tangential& w) {
+                 const Star& star, const Tangential& w) {
   using L = Layout<G, K>;
   const Real force = outward_area * star.P_star, moved = outward_area * star.u_star;
   add_in_cell<G, K>(phase, cell, L::inner_momentum, -(force * frame.n.x));
@@ -80,7 +134,8 @@ void act_in_cell(Phase& phase, const Indices<Real>& cell, const Frame<G, Real>& 
   add_in_cell<G, K>(phase, cell, L::inner_energy, -(force * star.u_star));
   add_in_cell<G, K>(phase, cell, L::inner_alpha, moved);
   if constexpr (K == Kind::solid) {
-    const Vector<G, Real> du = velocity_jump(frame, s.u, star.u_star, w);
+    const Vector<G, Real> du =
+        velocity_jump(frame, into_frame(frame, load_velocity<G, K>(CellSide<Real>{phase, cell})), star.u_star, w);
     const Cobasis<G, Real> e = load_cobasis<G, Real>(phase, cell);
     const Cobasis<G, Real> change = outward_area * fluctuation(Real(0.0), e, e, du, frame);
     for_each_component(change,
@@ -103,8 +158,12 @@ COBASIS_KERNEL void contact_in_cells(Phase& phase_l, Phase& phase_m, ContactList
     const Indices<Real> cell = load_indices<Real>(&list.cell[i]), cell_l = load_indices<Real>(&list.cell_l[i]),
                         cell_m = load_indices<Real>(&list.cell_m[i]);
     const Frame<G, Real> frame = contact_frame<G, Real>(list, i);
-    const auto l = contact_side<G, Kl, Real>(phase_l, cell_l, frame);
-    const auto m = contact_side<G, Km, Real>(phase_m, cell_m, frame);
+    const auto side_of_contact = [&]<Kind K>(const Phase& phase, const Indices<Real>& in) {
+      return SpeedOnly ? contact_side<G, K, Real>(phase, in, frame)
+                       : sloped_contact_side<G, K, Real>(phase, in, frame, list, i);
+    };
+    const auto l = side_of_contact.template operator()<Kl>(phase_l, cell_l);
+    const auto m = side_of_contact.template operator()<Km>(phase_m, cell_m);
     const LongitudinalStar<Real> star = longitudinal<Real>(l, m);
     store(star.u_star, &list.speed[i]);
     if constexpr (!SpeedOnly) {
@@ -121,11 +180,11 @@ COBASIS_KERNEL void contact_in_cells(Phase& phase_l, Phase& phase_m, ContactList
         };
         pull.template operator()<Kl>(phase_l, force, area * power_l);
         pull.template operator()<Km>(phase_m, (-1.0) * force, -(area * power_m));
-        act_in_cell<G, Kl>(phase_l, cell, frame, area, star, l, shear.w_l);
-        act_in_cell<G, Km>(phase_m, cell, frame, -area, star, m, shear.w_r);
+        act_in_cell<G, Kl>(phase_l, cell, frame, area, star, shear.w_l);
+        act_in_cell<G, Km>(phase_m, cell, frame, -area, star, shear.w_r);
       } else {
-        act_in_cell<G, Kl>(phase_l, cell, frame, area, star, l, free_tangential<G, Kl, Real>(l, 1.0));
-        act_in_cell<G, Km>(phase_m, cell, frame, -area, star, m, free_tangential<G, Km, Real>(m, -1.0));
+        act_in_cell<G, Kl>(phase_l, cell, frame, area, star, free_tangential<G, Kl, Real>(l, 1.0));
+        act_in_cell<G, Km>(phase_m, cell, frame, -area, star, free_tangential<G, Km, Real>(m, -1.0));
       }
     }
   }
@@ -137,11 +196,12 @@ COBASIS_KERNEL void free_surface_in_cells(Phase& phase, double p0, ContactList& 
   for (std::int32_t i = 0; i < n; i += lanes<Real>) {
     const Indices<Real> cell = load_indices<Real>(&list.cell[i]), cell_l = load_indices<Real>(&list.cell_l[i]);
     const Frame<G, Real> frame = contact_frame<G, Real>(list, i);
-    const auto l = contact_side<G, K, Real>(phase, cell_l, frame);
+    const auto l = SpeedOnly ? contact_side<G, K, Real>(phase, cell_l, frame)
+                             : sloped_contact_side<G, K, Real>(phase, cell_l, frame, list, i);
     const LongitudinalStar<Real> star = free_surface<Real>(l, Real(p0));
     store(star.u_star, &list.speed[i]);
     if constexpr (!SpeedOnly)
-      act_in_cell<G, K>(phase, cell, frame, load<Real>(&list.area[i]), star, l, free_tangential<G, K, Real>(l, 1.0));
+      act_in_cell<G, K>(phase, cell, frame, load<Real>(&list.area[i]), star, free_tangential<G, K, Real>(l, 1.0));
   }
 }
 

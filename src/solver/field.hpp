@@ -26,11 +26,13 @@ struct Layout {
   static constexpr int n_primitive = K == Kind::solid ? 5 + D : 4 + D;
 
   /// What a face does to a phase: flux of mass, momentum, energy (left to right); of a solid also what its cobasis
-  /// changes by: u e and u of the face (normal velocities), the velocity u* at the face, and the area, all but the last
-  /// times the area. In mixed faces also, per side, the gain of mass, momentum, energy, alpha, cobasis by contacts.
+  /// changes by: u e and u of the face (normal velocities), the velocity u* at the face, the area, and the turn that it
+  /// gives the right cell, all but the area times the area. In mixed faces also, per side, the gain of mass, momentum,
+  /// energy, alpha, cobasis by contacts.
   static constexpr int flux_cobasis = 2 + D, flux_volume = flux_cobasis + n_cobasis, flux_velocity = flux_volume + 1,
                        flux_area = flux_velocity + D;
-  static constexpr int n_flux = K == Kind::solid ? flux_area + 1 : 2 + D;
+  static constexpr int flux_turn = flux_area + 1, n_turn = D == 2 ? 1 : 3;
+  static constexpr int n_flux = K == Kind::solid ? flux_turn + n_turn : 2 + D;
   static constexpr int gain_alpha = 2 + D, gain_cobasis = 3 + D, gain_side = gain_cobasis + n_cobasis;
   static constexpr int n_gain = 2 * gain_side;
   /// What contacts inside a cell do to a phase there.
@@ -101,6 +103,10 @@ struct Phase {
   CellNumbers inner;                   ///< of sharp interfaces: what contacts inside cells do
   AlignedVector<double> wetted[2];     ///< of sharp interfaces: fraction of each face as seen from its left and its
                                        ///< right cell, where Fields::near says so
+  /// Of sharp interfaces at second order, per cell: where the phase's centroid lies, relative to the cell's [m], and
+  /// the slopes with which it was reconstructed; both 0 far from interfaces.
+  CellNumbers centre, used_slopes;
+  AlignedVector<double> wetted_at[3];  ///< likewise per face: where its part of it lies, relative to the face's [m]
 
   /// [kg/m^3]; alone in its scene, a phase has no other mass per volume than this.
   const AlignedVector<double>& density() const { return alpha.empty() ? conserved[0] : primitive[0]; }

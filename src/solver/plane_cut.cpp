@@ -167,10 +167,9 @@ double height_of(const CellCorners& cell, const Heights& heights, double target)
   return d;
 }
 
-/// Adds volume times section and moment of the section of one simplex.
+/// Sorts heights; returns which corner each belongs to.
 template <int D>
-void add_section(const std::array<const Point*, D + 1>& corner, std::array<double, D + 1> h, double d, double volume,
-                 double& area, Point& moment) {
+std::array<int, D + 1> sort_heights(std::array<double, D + 1>& h) {
   std::array<int, D + 1> at;
   for (int i = 0; i <= D; ++i) {
     int j = i;
@@ -178,6 +177,14 @@ void add_section(const std::array<const Point*, D + 1>& corner, std::array<doubl
     for (; j > 0 && h[j - 1] > height; --j) h[j] = h[j - 1], at[j] = at[j - 1];
     h[j] = height, at[j] = i;
   }
+  return at;
+}
+
+/// Adds volume times section and moment of the section of one simplex.
+template <int D>
+void add_section(const std::array<const Point*, D + 1>& corner, std::array<double, D + 1> h, double d, double volume,
+                 double& area, Point& moment) {
+  const std::array<int, D + 1> at = sort_heights<D>(h);
   if (d <= h[0] || d > h[D]) return;
   const auto p = [&](int i) -> const Point& { return *corner[at[i]]; };
   const auto r = [&](int i, int j) { return part_below(d, h[i], inverse_gap(h[i], h[j])); };
@@ -199,93 +206,50 @@ void add_section(const std::array<const Point*, D + 1>& corner, std::array<doubl
   }
 }
 
+/// Adds the volume of one simplex below d and its moment.
 template <int D>
-PlaneSection section_in(const CellCorners& cell, const Heights& heights, double d) {
+void add_below(const std::array<const Point*, D + 1>& corner, std::array<double, D + 1> h, double d, double volume,
+               double& below, Point& moment) {
+  const std::array<int, D + 1> at = sort_heights<D>(h);
+  const auto p = [&](int i) -> const Point& { return *corner[at[i]]; };
+  const auto r = [&](int i, int j) { return part_below(d, h[i], inverse_gap(h[i], h[j])); };
+  const auto x = [&](int i, int j) { return p(i) + r(i, j) * (p(j) - p(i)); };
+  const auto add = [&](double part, const Point& corners) {
+    below += part * volume;
+    moment = moment + (part * volume / (D + 1)) * corners;
+  };
+  if constexpr (D == 2) {
+    add(r(0, 1) * r(0, 2), p(0) + x(0, 1) + x(0, 2));
+    add(r(1, 2) * (1 - r(0, 2)), p(1) + x(1, 2) + x(0, 2));
+  } else {
+    const Point x02 = x(0, 2), x03 = x(0, 3), x12 = x(1, 2), x13 = x(1, 3);
+    add(r(0, 1) * r(0, 2) * r(0, 3), p(0) + x(0, 1) + x02 + x03);
+    add(r(1, 2) * r(0, 3) * (1 - r(0, 2)), p(1) + x12 + x02 + x03);
+    add((1 - r(0, 3)) * r(1, 2) * r(1, 3), p(1) + x12 + x13 + x03);
+    add((1 - r(0, 3)) * r(2, 3) * (1 - r(1, 3)), p(2) + x(2, 3) + x13 + x03);
+  }
+}
+
+/// A measure of a cell's part, and the mean of the positions in it; `add`: what one simplex adds to it and its moment.
+template <int D, class Add>
+PlaneSection sum_over_simplices(const CellCorners& cell, const Heights& heights, double d, const Add& add) {
   const Split& split = split_of(cell.type);
-  double area = 0;
+  double sum = 0;
   Point moment;
   for (int s = 0; s < split.n_simplices; ++s) {
     std::array<const Point*, D + 1> corner;
     std::array<double, D + 1> h;
     for (int i = 0; i <= D; ++i) corner[i] = &cell.point[split.corner[i][s]], h[i] = heights.of[split.corner[i][s]];
-    add_section<D>(corner, h, d, cell.simplex_volume[s], area, moment);
+    add(corner, h, d, cell.simplex_volume[s], sum, moment);
   }
-  if (!(area > 0)) return {};
-  return {area, 1 / area * moment};
-}
-
-// --- faces ---
-
-/// The times t in [low, high], in that order, at which the plane sweeps over a simplex of a face.
-struct Sweep {
-  double low, high;
-
-  /// Means of 1, A and A^2 over the part of the sweep between h and k, times its length; A = (t - from) * inverse.
-  struct Means {
-    double zeroth, first, second;
-  };
-  Means between(double h, double k, double from, double inverse, double second_inverse) const {
-    const double a = std::clamp(low, h, k), b = std::clamp(high, h, k);
-    const double p = (a - from) * inverse, q = (b - from) * inverse;
-    const double u = (a - from) * second_inverse, v = (b - from) * second_inverse;
-    return {b - a, 0.5 * (b - a) * (p + q), (b - a) / 6 * (2 * p * u + p * v + q * u + 2 * q * v)};
-  }
-  double after(double h) const { return std::max(0.0, high - std::max(low, h)); }
-};
-
-double mean_below(std::array<double, 2> h, const Sweep& sweep) {
-  sort_pair(h[0], h[1]);
-  const double inverse = inverse_gap(h[0], h[1]);
-  if (sweep.low == sweep.high) return part_below(sweep.low, h[0], inverse);
-  return (sweep.between(h[0], h[1], h[0], inverse, 0).first + sweep.after(h[1])) / (sweep.high - sweep.low);
-}
-
-double mean_below(std::array<double, 3> h, const Sweep& sweep) {
-  if (sweep.low == sweep.high) return SortedSimplex<2, double>(h).below(sweep.low).fraction;
-  sort_pair(h[0], h[1]), sort_pair(h[1], h[2]), sort_pair(h[0], h[1]);
-  const double i01 = inverse_gap(h[0], h[1]), i02 = inverse_gap(h[0], h[2]), i12 = inverse_gap(h[1], h[2]);
-  const Sweep::Means above = sweep.between(h[1], h[2], h[2], i12, i02);
-  return (sweep.between(h[0], h[1], h[0], i01, i02).second + (above.zeroth - above.second) + sweep.after(h[2])) /
-         (sweep.high - sweep.low);
-}
-
-/// Quadrilaterals: the mean over their four triangles, weighted as the mesh weighs them for the face's centroid.
-double mean_below(const FaceOutline& face, const std::array<double, 4>& h, const Sweep& sweep) {
-  if (face.size == 2) return mean_below(std::array{h[0], h[1]}, sweep);
-  if (face.size == 3) return mean_below(std::array{h[0], h[1], h[2]}, sweep);
-  const auto& p = face.corner;
-  const Point normal = cross(p[2] - p[0], p[3] - p[1]);
-  const Point m = 0.25 * (p[0] + p[1] + p[2] + p[3]);
-  const double h_m = 0.25 * (h[0] + h[1] + h[2] + h[3]);
-  double whole = 0, below = 0;
-  for (int i = 0; i < 4; ++i) {
-    const int j = (i + 1) % 4;
-    const double weight = dot(cross(p[i] - m, p[j] - m), normal);
-    whole += weight;
-    below += weight * mean_below(std::array{h[i], h[j], h_m}, sweep);
-  }
-  return below / whole;
+  if (!(sum > 0)) return {};
+  if (cell.is_ring) moment.z = 0;
+  return {sum, 1 / sum * moment};
 }
 
 std::span<const std::int32_t> nodes_of(const Mesh& mesh, std::int32_t cell) {
   return std::span(mesh.cell_nodes)
       .subspan(mesh.cell_node_begin[cell], mesh.cell_node_begin[cell + 1] - mesh.cell_node_begin[cell]);
-}
-
-FaceOutline outline(const Mesh& mesh, std::int32_t cell, int local, const Point& center) {
-  const FaceCorners& face = shape_of(mesh.cell_type[cell]).faces[local];
-  const auto nodes = nodes_of(mesh, cell);
-  FaceOutline result;
-  result.size = face.size;
-  for (int i = 0; i < face.size; ++i) result.corner[i] = mesh.nodes[nodes[face.corner[i]]] - center;
-  if (mesh.axisymmetric) {
-    const Point &a = mesh.nodes[nodes[face.corner[0]]], &b = mesh.nodes[nodes[face.corner[1]]];
-    if (a.y == 0 && b.y == 0) return result;
-    result.size = 4;
-    result.corner[2] = result.corner[1] + Point{0, 0, b.y};
-    result.corner[3] = result.corner[0] + Point{0, 0, a.y};
-  }
-  return result;
 }
 
 }  // namespace
@@ -347,53 +311,15 @@ PlaneSection section(const CellCorners& cell, const CutPlane& plane) {
   for (int i = 0; i < shape_of(cell.type).n_corners; ++i) size = std::max(size, dot(cell.point[i], cell.point[i]));
   const Heights heights(cell, plane.n, plane.d, 1e-15 * std::sqrt(size));
   if (plane.d <= heights.lowest || plane.d > heights.highest) return {};
-  PlaneSection cut = shape_of(cell.type).dimension == 2 ? section_in<2>(cell, heights, plane.d)
-                                                        : section_in<3>(cell, heights, plane.d);
-  if (cell.is_ring) cut.centroid.z = 0;
-  return cut;
+  return shape_of(cell.type).dimension == 2 ? sum_over_simplices<2>(cell, heights, plane.d, add_section<2>)
+                                            : sum_over_simplices<3>(cell, heights, plane.d, add_section<3>);
 }
 
-FaceOutlines::FaceOutlines(const Mesh& mesh) : mesh_(&mesh), local_(mesh.n_faces()) {
-  for (std::int32_t face = 0; face < mesh.n_faces(); ++face) {
-    const std::int32_t cell = mesh.left[face];
-    double smallest = std::numeric_limits<double>::infinity();
-    for (int local = 0; local < shape_of(mesh.cell_type[cell]).n_faces; ++local) {
-      const FaceOutline o = outline(mesh, cell, local, mesh.face_centroid[face]);
-      Point off = face_geometry({o.corner.data(), static_cast<std::size_t>(o.size)}).centroid;
-      if (mesh.axisymmetric) off.z = 0;
-      if (const double square = dot(off, off); square < smallest) {
-        smallest = square;
-        local_[face] = static_cast<std::int8_t>(local);
-      }
-    }
-  }
-}
-
-FaceOutline FaceOutlines::operator[](std::int32_t face) const {
-  return outline(*mesh_, mesh_->left[face], local_[face], mesh_->face_centroid[face]);
-}
-
-Point FaceOutlines::center(std::int32_t face, int side) const {
-  const Point from_left = mesh_->face_centroid[face] - mesh_->centroid[mesh_->left[face]];
-  return side == 0 ? from_left : from_left - mesh_->face_delta[face];
-}
-
-double wetted_fraction(const FaceOutline& face, const Point& center, const CutPlane& plane, double shift) {
-  const double s = dot(plane.n, center) - plane.d;
-  std::array<double, 4> h{};
-  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest, size = 0;
-  for (int i = 0; i < face.size; ++i) {
-    h[i] = s + dot(plane.n, face.corner[i]);
-    lowest = std::min(lowest, h[i]);
-    highest = std::max(highest, h[i]);
-    size = std::max(size, dot(face.corner[i], face.corner[i]));
-  }
-  const double nearly_zero = 1e-24 * (size + dot(center, center));
-  if (lowest * lowest <= nearly_zero && highest * highest <= nearly_zero) return shift > 0 ? 1 : shift < 0 ? 0 : 0.5;
-  const Sweep sweep{std::min(shift, 0.0), std::max(shift, 0.0)};
-  if (highest <= sweep.low) return 1;
-  if (lowest >= sweep.high) return 0;
-  return std::clamp(mean_below(face, h, sweep), 0.0, 1.0);
+Point centroid_below(const CellCorners& cell, const CutPlane& plane) {
+  const Heights heights(cell, plane.n);
+  if (plane.d <= heights.lowest || plane.d >= heights.highest) return {};
+  return shape_of(cell.type).dimension == 2 ? sum_over_simplices<2>(cell, heights, plane.d, add_below<2>).centroid
+                                            : sum_over_simplices<3>(cell, heights, plane.d, add_below<3>).centroid;
 }
 
 }  // namespace cobasis

@@ -48,6 +48,9 @@ double volume_below(const CellCorners& cell, const CutPlane& plane);
 /// to min(fraction, 1 - fraction), down to slivers. For fractions <= 0 and >= 1 the cell's lowest and highest corner.
 double place_plane(const CellCorners& cell, const Point& n, double fraction);
 
+/// Centroid of the part of the cell with s <= 0, relative to the cell's; the cell's own if there is none.
+Point centroid_below(const CellCorners& cell, const CutPlane& plane);
+
 /// The part of a plane inside a cell.
 struct PlaneSection {
   double area = 0;  ///< [m^2], in a plane [m], of a ring over 2 pi; 0 if the plane misses the cell
@@ -84,5 +87,8 @@ class FaceOutlines {
 /// the plane's cell. A face in the plane (to 1e-12 of its distance and size) counts as 1, 0 or 1/2 for a shift
 /// above, below or equal to 0.
 double wetted_fraction(const FaceOutline& face, const Point& center, const CutPlane& plane, double shift);
+
+/// Centroid of the part of a face that lies at s <= 0, relative to the face's; the face's own if there is none.
+Point wetted_centroid(const FaceOutline& face, const Point& center, const CutPlane& plane);
 
 }  // namespace cobasis

@@ -7,7 +7,6 @@
 #include "solver/stencil.hpp"
 
 namespace cobasis {
-
 struct ReconstructionOptions {
   double dt = 0;  ///< of the step; 0: states at its beginning
   bool limited = true;
@@ -72,8 +71,9 @@ COBASIS_KERNEL void copy_to_faces(Phase& phase, const Faces& faces, const CellLi
   }
 }
 
-/// Share of the whole stencil's weight that stands in for directions without neighbours, so that they get no slope.
-inline constexpr double least_known = 0.02;
+/// Weights of neighbours without the phase, so that there is no slope where nothing is known, and of all in addition,
+/// so that no matrix is singular.
+inline constexpr double least_known = 0.02, always_known = 1e-3;
 
 template <class Real>
 std::array<Real, 2> product(const std::array<std::array<Real, 2>, 2>& m, const std::array<Real, 2>& v) {
@@ -119,16 +119,7 @@ struct Neighbourhood {
   Real of_entry(const AlignedVector<double>& values, int j) const { return gather<Real>(&values[entry(j)], at); }
   Indices<Real> neighbour(int j) const { return lookup<Real>(&stencil.cell[entry(j)], at); }
 
-  State state(const Indices<Real>& cell) const {
-    State w;
-    for (int v = 0; v < P::size; ++v)
-      w[v] = gather<Real>((v == P::rho ? phase.density()
-                           : v < P::e  ? phase.primitive[v]
-                                       : phase.conserved[L::cobasis + v - P::e])
-                              .data(),
-                          cell);
-    return w;
-  }
+  State state(const Indices<Real>& cell) const { return mean_state<G, K, Real>(phase, cell); }
   /// Turns v into its mirror image where face j is a mirror.
   template <class Component>
   void reflect(int j, const Component& v) const {
@@ -157,35 +148,69 @@ struct Neighbourhood {
     return other;
   }
   Mask<Real> holds(int j) const { return gather<Real>(phase.alpha.data(), neighbour(j)) > Real(least_for_slopes); }
-  /// Least squares. Where some neighbours do not hold the phase, over the others, and a direction in which there is
-  /// none gets no slope.
+  /// Least squares. Beside gaps between the centroids of the phase, weighted by its volume fractions; neighbours
+  /// without it hold the slope towards them down, a little.
   typename P::template Gradients<Real> gradient(const State& w) const {
     typename P::template Gradients<Real> of{};
-    std::array<std::array<Real, D>, D> all{}, held{};
-    for (int j = 0; j < stencil.size; ++j) {
-      const State other = beyond(j, w);
-      std::array<Real, D> weight;
-      for (int d = 0; d < D; ++d) weight[d] = of_entry(stencil.weight[d], j);
-      if constexpr (A == Around::gaps) {
-        const Real share = select(holds(j), Real(1.0), Real(0.0));
-        for (int a = 0; a < D; ++a)
-          for (int b = 0; b < D; ++b) {
-            all[a][b] = all[a][b] + weight[a] * weight[b];
-            held[a][b] = held[a][b] + share * (weight[a] * weight[b]);
-          }
+    if constexpr (A != Around::gaps) {
+      for (int j = 0; j < stencil.size; ++j) {
+        const State other = beyond(j, w);
+        for (int d = 0; d < D; ++d) {
+          const Real weight = of_entry(stencil.weight[d], j);
+          for (int v = 0; v < P::size; ++v) of[v][d] = of[v][d] + weight * (other[v] - w[v]);
+        }
       }
-      for (int v = 0; v < P::size; ++v)
-        for (int d = 0; d < D; ++d) of[v][d] = of[v][d] + weight[d] * (other[v] - w[v]);
-    }
-    if constexpr (A == Around::gaps) {
-      // With weights q = M^-1 r of the whole stencil, M = sum r r^T: (N + small M^-1) M g = sum q (value_j - value)
-      // over the neighbours held, N = sum q q^T over them and M^-1 the same over all.
-      for (int a = 0; a < D; ++a)
-        for (int b = 0; b < D; ++b) held[a][b] = held[a][b] + least_known * all[a][b];
-      const auto inverse = inverse_of(held);
-      for (auto& g : of) g = product(all, product(inverse, g));
+    } else {
+      std::array<std::array<Real, D>, D> matrix{};
+      for (int j = 0; j < stencil.size; ++j) {
+        const State other = beyond(j, w);
+        const Mask<Real> held = holds(j);
+        const auto [r, whole] = displacement(j);
+        const Real weight = select(held, gather<Real>(phase.alpha.data(), neighbour(j)), Real(least_known));
+        for (int a = 0; a < D; ++a)
+          for (int b = 0; b < D; ++b)
+            matrix[a][b] = matrix[a][b] + (weight * select(held, r[a] * r[b], whole[a] * whole[b]) +
+                                           always_known * (whole[a] * whole[b]));
+        for (int v = 0; v < P::size; ++v)
+          for (int d = 0; d < D; ++d) of[v][d] = of[v][d] + (weight * r[d]) * (other[v] - w[v]);
+      }
+      const auto inverse = inverse_of(matrix);
+      for (auto& g : of) g = product(inverse, g);
     }
     return of;
+  }
+
+  /// From the cell's part of the phase to the one beyond face j, and from cell to cell.
+  std::pair<std::array<Real, D>, std::array<Real, D>> displacement(int j) const {
+    std::array<Real, D> whole;
+    for (int d = 0; d < D; ++d) whole[d] = of_entry(stencil.delta[d], j);
+    auto r = whole;
+    if (phase.centre.stride != 0) {
+      const std::array<Real, D> own = centre(at);
+      std::array<Real, D> other = centre(neighbour(j));
+      reflect(j, [&](int d) -> Real& { return other[d]; });
+      for (int d = 0; d < D; ++d) r[d] = r[d] + (other[d] - own[d]);
+    }
+    return {r, whole};
+  }
+  std::array<Real, D> centre(const Indices<Real>& cell) const {
+    std::array<Real, D> r;
+    for (int d = 0; d < D; ++d) r[d] = gather<Real>(phase.centre.component(d), cell);
+    return r;
+  }
+  /// From the cell's part of the phase to that of face j.
+  std::array<Real, D> to_face(int j) const {
+    std::array<Real, D> r;
+    for (int d = 0; d < D; ++d) r[d] = of_entry(stencil.to_face[d], j);
+    if constexpr (A == Around::gaps) {
+      if (phase.centre.stride != 0) {
+        const std::array<Real, D> own = centre(at);
+        Indices<Real> face = lookup<Real>(&faces.cell_faces[entry(j)], at);
+        for (auto& f : face) f >>= 1;
+        for (int d = 0; d < D; ++d) r[d] = r[d] + (gather<Real>(phase.wetted_at[d].data(), face) - own[d]);
+      }
+    }
+    return r;
   }
 
   /// The gradients of the mirror image.
@@ -208,10 +233,6 @@ COBASIS_KERNEL void find_slopes(Phase& phase, const Faces& faces, const Stencil&
       for (int d = 0; d < D; ++d) scatter(gradient[v][d], phase.slopes.component(v * D + d), here.at);
   }
 }
-
-/// What slopes of e say of a volume at a face, relative to what the slope of the density says. Beyond these bounds the
-/// components no longer belong to one deformation.
-constexpr double least_det = 0.5, most_det = 2;
 
 /// Writes the state of a phase in the faces' buffer on the listed cells' sides. Returns in how many cells the state
 /// would have been inadmissible at a face; those are taken as they are, at first order.
@@ -259,11 +280,6 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
     }
 
     const Real ch2 = gather<Real>(phase.primitive[L::ch2].data(), at);
-    const auto to_face = [&](int j) {
-      std::array<Real, D> r;
-      for (int d = 0; d < D; ++d) r[d] = here.of_entry(stencil.to_face[d], j);
-      return r;
-    };
     const auto along = [&](int v, const std::array<Real, D>& r) {
       Real change = gradient[v][0] * r[0];
       for (int d = 1; d < D; ++d) change = change + gradient[v][d] * r[d];
@@ -284,7 +300,7 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
         low[v] = (low[v] - w[v]) - tolerance * scale[v];
       }
       for (int j = 0; j < faces.max_cell_faces; ++j) {
-        const auto r = to_face(j);
+        const auto r = here.to_face(j);
         for (int v = 0; v < P::size; ++v) {
           const Real change = along(v, r);
           const Real room = select(change > Real(0.0), high[v], low[v]);
@@ -311,7 +327,7 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
       for (int v = 0; v < P::size; ++v) s[v] = w[v] + (along(v, r) + half * rate[v]);
       return s;
     };
-    const auto at_face = [&](int j) { return at_place(to_face(j)); };
+    const auto at_face = [&](int j) { return at_place(here.to_face(j)); };
     const auto cobasis_of = [&](const typename P::template State<Real>& s) {
       return make_cobasis<G>([&](int c) { return s[P::e + c]; });
     };
@@ -338,6 +354,12 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
         s[P::u + 1] = select(good, s[P::u + 1], at_rest);
         keep_hoop<K>(phase, at, s);
       }
+    }
+    if constexpr (A == Around::gaps) {
+      if (phase.used_slopes.stride != 0)
+        for (int v = 0; v < P::size; ++v)
+          for (int d = 0; d < D; ++d)
+            scatter(select(good, gradient[v][d], Real(0.0)), phase.used_slopes.component(v * D + d), at);
     }
     for (int j = 0; j < faces.max_cell_faces; ++j) {
       const Indices<Real> entry = lookup<Real>(&faces.cell_faces[static_cast<std::size_t>(j) * faces.cell_stride], at);

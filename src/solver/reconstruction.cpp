@@ -42,11 +42,12 @@ std::vector<std::size_t> capacities(const std::vector<std::vector<std::int32_t>>
 
 Reconstruction::Reconstruction(const Mpi& mpi, const Mesh& mesh, const Faces& faces, Fields& fields,
                                const std::vector<PhaseKernels>& kernels, const std::vector<Boundary>& boundaries)
-    : stencil_(make_stencil(mesh, faces, boundaries, mpi)),
+    : stencil_(make_stencil(mesh, faces, boundaries, fields.multiphase(), mpi)),
       kernels_(kernels),
       with_slopes_(mesh.n_owned),
       beside_gaps_(mesh.n_owned),
       without_(mesh.n_owned),
+      used_(fields.n_phases()),
       flat_(mesh.n_owned + pack_width, 0.0),
       halo_faces_(shared_faces(mesh)),
       exchange_(mpi, mesh.neighbours, capacities(halo_faces_, kernels), 14) {
@@ -123,7 +124,9 @@ void Reconstruction::select(const Group& group, const Fields& fields, int k, int
       }
       present &= positive_lanes(own);
       some &= positive_lanes(own - Pack(least_for_slopes));
-      sloping &= positive_lanes(least - Pack(least_for_slopes));
+      // where the phase has a centroid of its own, its distances are not the cells'
+      const bool has_centres = fields.phases[k].centre.stride != 0;
+      sloping &= has_centres ? ~positive_lanes(Pack(1.0) - least) : positive_lanes(least - Pack(least_for_slopes));
     }
     if (!fields.cautious.empty()) {
       const unsigned cautious = positive_lanes(gather<Pack>(fields.cautious.data(), at));
@@ -190,6 +193,8 @@ void Reconstruction::run(Group& group, Fields& fields, const Faces& faces, const
       for (const auto& [list, around] : {std::pair(&with_slopes_, mirrors), std::pair(&beside_gaps_, gaps)}) {
         const std::int32_t count = list->size();
         list->fill(pack_width);
+        if (around == gaps && phase.used_slopes.stride != 0)
+          for (std::int32_t i = 0; i < count; ++i) used_[k].push_back((*list)[i]);
         fallen_ += kernels_[k].reconstruct[around][stencil_.averages](phase, faces, stencil_, *list, count, options);
         reconstructed_ += count;
       }
@@ -201,7 +206,17 @@ void Reconstruction::run(Group& group, Fields& fields, const Faces& faces, const
   }
 }
 
+void Reconstruction::forget_slopes(Fields& fields) {
+  for (std::size_t k = 0; k < used_.size(); ++k) {
+    CellNumbers& slopes = fields.phases[k].used_slopes;
+    for (int c = 0; c < kernels_[k].n_slopes; ++c)
+      for (const std::int32_t cell : used_[k]) slopes.component(c)[cell] = 0;
+    used_[k].clear();
+  }
+}
+
 void Reconstruction::run_inside(Fields& fields, const Faces& faces, const ReconstructionOptions& options) {
+  forget_slopes(fields);
   if (stencil_.averages)
     find_slopes(inside_, fields, faces);
   else

@@ -36,12 +36,14 @@ class Reconstruction {
   void select(const Group& group, const Fields& fields, int k, int mirrors);
   void find_slopes(Group& group, Fields& fields, const Faces& faces);
   void exchange_slopes(const Mesh& mesh, Fields& fields, bool send);
+  void forget_slopes(Fields& fields);
   void run(Group& group, Fields& fields, const Faces& faces, const ReconstructionOptions& options);
 
   Stencil stencil_;
   std::vector<PhaseKernels> kernels_;
   Group inside_, beside_halo_;
   CellList with_slopes_, beside_gaps_, without_;  // scratch
+  std::vector<std::vector<std::int32_t>> used_;   // per phase: cells whose Phase::used_slopes are not 0
   /// 1 for simplices at transmissive faces: what flows in there is what the cell makes of its neighbours; with
   /// gradients over so few of them noise would grow.
   AlignedVector<double> flat_;

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/cell_energy.hpp"
+
 namespace cobasis {
 namespace {
 
-constexpr double least_donor = 0.03;       ///< what is small itself has no state to share
-constexpr double least_with_slopes = 0.5;  ///< a donor that holds this much held enough for slopes before the step
-constexpr double small_fraction = 0.5;     ///< below this volume fraction a phase is averaged
+constexpr double least_donor = 0.03;    ///< what is small itself has no state to share
+constexpr double small_fraction = 0.5;  ///< below this volume fraction a phase is averaged
 /// A negative volume may take away so much of the neighbour's share that their mean means nothing. The sum of both must
 /// exceed this part of the sum of magnitudes: then the mean leaves the range of the two states by half their difference
 /// at most.
@@ -166,35 +167,52 @@ Redistribution::Share Redistribution::share_of(const Fields& fields, int k, std:
   return share;
 }
 
-/// At second order the states at a cell's faces differ from their mean by its slopes. From the donor's middle to that
-/// of what is beyond a face it is twice as far as to the face, if the cell is full; half as far again from half of it.
+/// From the donor's part of the phase to the cell's; to the part of their face where the cell had none before the step.
+std::array<double, 3> Redistribution::between(const Mesh& mesh, const Faces& faces, const Fields& fields,
+                                              const Pair& pair) const {
+  const Phase& phase = fields.phases[pair.k];
+  const auto part_of = [&](std::int32_t cell) {
+    std::array<double, 3> at{};
+    for (int d = 0; d < fields.dimension; ++d) at[d] = phase.centre.component(d)[cell];
+    return at;
+  };
+  const std::array<double, 3> from = part_of(pair.donor), in_cell = part_of(pair.cell);
+  std::array<double, 3> delta{};
+  for (int f = 0; f < faces.max_cell_faces; ++f) {
+    if (neighbour_at(mesh, faces, pair.donor, f) != pair.cell) continue;
+    const std::int32_t entry = faces.cell_faces[static_cast<std::size_t>(f) * faces.cell_stride + pair.donor];
+    const std::int32_t face = entry >> 1;
+    const bool was_there = in_cell != std::array<double, 3>{};
+    const Point to_left = mesh.face_centroid[face] - mesh.centroid[mesh.left[face]];
+    const Point to_cell = (entry & 1 ? -1.0 : 1.0) * mesh.face_delta[face],
+                to_face = entry & 1 ? to_left + to_cell : to_left, way = was_there ? to_cell : to_face;
+    delta = {way.x, way.y, way.z};
+    for (int d = 0; d < fields.dimension; ++d)
+      delta[d] += (was_there ? in_cell[d] : phase.wetted_at[d][face]) - from[d];
+    break;
+  }
+  return delta;
+}
+
+/// At second order the states of the pair differ by the donor's slopes. Nothing where they would lead to no state.
 std::array<double, Redistribution::most_components> Redistribution::step_beside(const Mesh& mesh, const Faces& faces,
                                                                                 const Fields& fields,
                                                                                 const Pair& pair) const {
   const Phase& phase = fields.phases[pair.k];
-  std::array<double, most_components> mean{}, there{}, step{};
-  if (phase.face_states.stride == 0) return step;
-  const int D = fields.dimension, n_primitive = static_cast<int>(phase.primitive.size());
-  int count = 0;
-  for (int f = 0; f < faces.max_cell_faces; ++f) {
-    const std::int32_t entry = faces.cell_faces[static_cast<std::size_t>(f) * faces.cell_stride + pair.donor];
-    const std::int32_t face = entry >> 1;
-    if (face >= faces.n) continue;
-    const auto value = [&](int c) {
-      return phase.face_states.component(c)[(entry & 1) * phase.face_states.stride + face];
-    };
-    std::array<double, most_components> Q{};
-    Q[0] = value(0);
-    for (int d = 0; d < D; ++d) Q[1 + d] = value(0) * value(1 + d);
-    Q[1 + D] = value(0) * value(3 + D);
-    for (int c = 2 + D; c < phase.n_conserved(); ++c) Q[c] = value(n_primitive + c - (2 + D));
-    ++count;
-    for (int c = 0; c < phase.n_conserved(); ++c) mean[c] += Q[c];
-    if (neighbour_at(mesh, faces, pair.donor, f) == pair.cell) there = Q;
+  if (phase.used_slopes.stride == 0) return {};
+  const int D = fields.dimension;
+  const std::array<double, 3> delta = between(mesh, faces, fields, pair);
+  std::array<double, most_components> here{}, there{}, step{};  // rho, u, p, e
+  for (int v = 0; v < phase.n_conserved(); ++v) {
+    here[v] = (v < 2 + D ? phase.primitive[v] : phase.conserved[v])[pair.donor];
+    there[v] = here[v];
+    for (int d = 0; d < D; ++d) there[v] += phase.used_slopes.component(v * D + d)[pair.donor] * delta[d];
   }
-  const double distance = 1 + std::clamp(phase.alpha[pair.cell], 0.0, 1.0);  // in units of that to the face
-  for (int c = 0; c < phase.n_conserved(); ++c) step[c] = distance * (there[c] - mean[c] / count);
-  return step;
+  step[0] = there[0] - here[0];
+  for (int d = 0; d < D; ++d) step[1 + d] = there[0] * there[1 + d] - here[0] * here[1 + d];
+  step[1 + D] = total_energy(fields, phase, there.data()) - total_energy(fields, phase, here.data());
+  for (int c = 2 + D; c < phase.n_conserved(); ++c) step[c] = there[c] - here[c];
+  return there[0] > 0 && std::isfinite(step[1 + D]) ? step : decltype(step){};
 }
 
 /// The mean of every pair, from the state before.
@@ -344,9 +362,7 @@ void Redistribution::settle(const Mesh& mesh, const Faces& faces, Fields& fields
   for (Pair& pair : pairs_) {
     if (pair.donor >= mesh.n_owned) continue;
     lend(mesh, fields, pair, target);
-    if (target < 1 && fields.phases[pair.k].alpha[pair.cell] > 0 &&
-        fields.phases[pair.k].alpha[pair.donor] > least_with_slopes)
-      pair.step = step_beside(mesh, faces, fields, pair);
+    if (target < 1 && fields.phases[pair.k].alpha[pair.cell] > 0) pair.step = step_beside(mesh, faces, fields, pair);
   }
   average(mesh, faces, fields);
   for (const auto& [cell, k] : changed_) take(mesh, faces, fields, k, cell);

@@ -85,6 +85,7 @@ class Redistribution {
   template <class Visit>
   void for_each_taker(const Mesh& mesh, const Faces& faces, int k, std::int32_t cell, const Visit& visit) const;
   void take(const Mesh& mesh, const Faces& faces, Fields& fields, int k, std::int32_t cell);
+  std::array<double, 3> between(const Mesh& mesh, const Faces& faces, const Fields& fields, const Pair& pair) const;
   std::array<double, most_components> step_beside(const Mesh& mesh, const Faces& faces, const Fields& fields,
                                                   const Pair& pair) const;
   Share share_of(const Fields& fields, int k, std::int32_t cell, double fraction) const;

@@ -72,6 +72,8 @@ class SharpInterface {
   Point fitted_normal(int k, std::int32_t cell) const;
   void exchange(Fields& fields);
   void exchange_blends();
+  void find_centres(Fields& fields);
+  void exchange_centres(Fields& fields);
   void find_speeds(Fields& fields);
   void seed(const Faces& faces, Fields& fields);
   void spread(Fields& fields, int ring);
@@ -93,6 +95,7 @@ class SharpInterface {
   double side_fraction(const Fields& fields, int k, std::int32_t face, int side, double dt) const;
   void find_health(Fields& fields);
   bool has_planes(const Fields& fields, std::int32_t cell) const;
+  void find_wetted_centroids(Fields& fields, std::int32_t face, double from_left, double dt);
   void wet_face(const Faces& faces, Fields& fields, std::int32_t face, double dt);
   void contacts_of(const Faces& faces, const Fields& fields, std::int32_t cell);
   template <class Visit>
@@ -112,7 +115,7 @@ class SharpInterface {
   std::vector<bool> is_transmissive_;                       // boundary faces
 
   std::vector<std::int32_t> cut_cells_, mixed_cells_;  // owned cells of several phases, with planes and without
-  std::vector<std::int32_t> frontier_, next_, near_faces_;
+  std::vector<std::int32_t> frontier_, next_, near_faces_, centred_;
   int hops_ = 1;                                 // the most of any cell, see hops_of
   std::vector<Moments> moments_, next_moments_;  // of the phase at hand, see gather_moments
   std::vector<std::int32_t> moments_at_;         // per cell: where in moments_; -1: it has none

@@ -89,15 +89,19 @@ double Solver::sweep_centred(double until) {
                                 .limited = setup_.scheme.limited,
                                 .rings = fields_.rings_or_null()};
   for (bool first = true;; first = false) {
-    if (second) {
+    const auto inside = [&] {
       const Timed timed(clock_.kernels);
-      reconstruction_->run_inside(fields_, faces_, options);
-    }
+      if (second) reconstruction_->run_inside(fields_, faces_, options);
+    };
+    if (!sharp_) inside();
     if (first) {
       receive_halo();
       if (sharp_) sharp_->place(faces_, fields_, followers_);
     }
-    if (sharp_) sharp_->wet(faces_, fields_, options.dt);
+    if (sharp_) {
+      sharp_->wet(faces_, fields_, options.dt);
+      inside();
+    }
     if (second) {
       const Timed timed(clock_.kernels);
       reconstruction_->run_beside_halo(mesh_, fields_, faces_, options);

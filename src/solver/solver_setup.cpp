@@ -210,7 +210,6 @@ void Solver::allocate() {
       throw InputError(fmt::format("{}: {} faces on one rank are too many for 32-bit positions; use more ranks",
                                    setup_.case_file, faces_.n));
     phase.flux = RawStorage(flux_size);
-    std::fill_n(phase.flux.data(), pack_width * kernels.n_flux, 0.0);
     if (setup_.scheme.order == 2) {
       phase.face_states.stride = FaceStates::stride_for(faces_.n + 1);
       phase.face_states.storage = RawStorage(2 * phase.face_states.stride * kernels.n_face_state);
@@ -219,7 +218,6 @@ void Solver::allocate() {
       lists.mixed = CompactList<std::int32_t>(list_capacity);
       lists.mixed_share = CompactList<double>(list_capacity);
       phase.gain = RawStorage(mixed_slots * kernels.n_gain);
-      std::fill_n(phase.gain.data(), pack_width * kernels.n_gain, 0.0);
       phase.sides = RawStorage(mixed_slots * 2 * kernels.n_side);
     }
   }

@@ -50,7 +50,8 @@ double own_weight(CellType type) {
 
 }  // namespace
 
-Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Boundary>& boundaries, const Mpi& mpi) {
+Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Boundary>& boundaries, bool several,
+                     const Mpi& mpi) {
   Stencil stencil;
   stencil.size = faces.max_cell_faces;
   stencil.stride = faces.cell_stride;
@@ -60,6 +61,7 @@ Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Bou
   stencil.average.assign(entries, 0);
   for (int d = 0; d < 3; ++d) {
     stencil.weight[d].assign(entries, 0);
+    if (several) stencil.delta[d].assign(entries, 0);
     stencil.to_face[d].assign(entries, 0);
   }
   stencil.tolerance.assign(stencil.stride, 0);
@@ -94,6 +96,7 @@ Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Bou
       else if (is_mirror[face - mesh.first_boundary_face()])
         stencil.mirror[at] = 2, stencil.at_mirror[cell] = 1;
       const double x[3] = {delta.x, delta.y, delta.z};
+      for (int d = 0; d < 3 && several; ++d) stencil.delta[d][at] = x[d];
       for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b) normal_matrix[a][b] += x[a] * x[b];
     }

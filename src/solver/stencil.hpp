@@ -16,6 +16,7 @@ struct Stencil {
   std::int32_t stride = 0;
   AlignedVector<std::int32_t> cell;  ///< the neighbour; the cell itself behind a mirror and where there is none
   AlignedVector<double> weight[3];   ///< [1/m]
+  AlignedVector<double> delta[3];    ///< to the neighbour's centroid [m]; of scenes with several phases
   /// Where cells are simplices: gradient of a cell + sum over entries of average_j (gradient_j - gradient). Least
   /// squares over the few faces of a tetrahedron alone makes an unstable scheme.
   AlignedVector<double> average;
@@ -27,7 +28,8 @@ struct Stencil {
   AlignedVector<std::int32_t> at_mirror;  ///< per cell: whether one of its faces is a mirror
 };
 
-/// `boundaries`: one for each of the mesh's groups. Collective.
-Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Boundary>& boundaries, const Mpi& mpi);
+/// `boundaries`: one for each of the mesh's groups. `several`: phases. Collective.
+Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Boundary>& boundaries, bool several,
+                     const Mpi& mpi);
 
 }  // namespace cobasis

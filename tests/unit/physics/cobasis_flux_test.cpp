@@ -4,6 +4,7 @@
 
 #include "physics/longitudinal.hpp"
 #include "physics/shear.hpp"
+#include "physics/smooth_flow.hpp"
 #include "random_states.hpp"
 
 using namespace cobasis;
@@ -154,5 +155,89 @@ TEST_CASE("fluctuations of plane strain are those of space") {
     const Numbers D = rows<double>(fluctuation(200.0, stretched(k, space, 1.2), h, Point{30, -40, 0}, space));
     const Numbers plane_rows{{{d.e1.x, d.e1.y, 0}, {d.e2.x, d.e2.y, 0}, {0, 0, d.e3.z}}};
     CHECK(largest(per_entry([&](int beta, int i) { return D[beta][i] - plane_rows[beta][i]; })) < 1e-12);
+  }
+}
+
+namespace {
+
+/// e R with the rotation R by `angle` about an axis, as it acts on the numbers of the vectors.
+Numbers turned(const Numbers& e, double angle, const Point& axis) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const double n[3] = {axis.x, axis.y, axis.z};
+  const double cross[3][3] = {{0, -n[2], n[1]}, {n[2], 0, -n[0]}, {-n[1], n[0], 0}};
+  return per_entry([&](int beta, int i) {
+    double sum = 0;
+    for (int a = 0; a < 3; ++a) sum += e[a][i] * ((a == beta ? c : 0) + s * cross[a][beta] + (1 - c) * n[a] * n[beta]);
+    return sum;
+  });
+}
+
+std::array<double, 9> in_a_row(const Numbers& e) {
+  std::array<double, 9> row;
+  for (int c = 0; c < 9; ++c) row[c] = e[c / 3][c % 3];
+  return row;
+}
+
+}  // namespace
+
+TEST_CASE("the turn of one cobasis against another is found and undone, to third order in its angle") {
+  Random random(3);
+  for (const double angle : {0.1, 0.01}) {
+    for (int i = 0; i < 20; ++i) {
+      const Numbers l = rows<double>(random.cobasis(0.0));
+      const Frame<Space, double> frame = random.frame();
+      const Numbers r = turned(l, angle, frame.n);
+      const auto omega = turn(cobasis_of<double>(l), cobasis_of<double>(r));
+      const auto back = turn(cobasis_of<double>(r), cobasis_of<double>(l));
+      for (int c = 0; c < 3; ++c) CHECK(omega[c] == Approx(-back[c]).margin(1e-15));
+      auto e = in_a_row(l);
+      turn_by<3>(e, omega);
+      const auto wanted = in_a_row(r);
+      for (int c = 0; c < 9; ++c) CHECK(std::fabs(e[c] - wanted[c]) < 0.3 * angle * angle * angle);
+    }
+  }
+}
+
+TEST_CASE("a turn of any size leaves the metric of a cobasis, and no two cobases make more than a bounded one") {
+  Random random(3);
+  for (int i = 0; i < 50; ++i) {
+    const Numbers l = rows<double>(random.cobasis(0.4)), r = rows<double>(random.cobasis(0.4));
+    const Numbers far = turned(r, random.between(0, 3.1), random.frame().n);
+    const auto omega = turn(cobasis_of<double>(l), cobasis_of<double>(far));
+    for (const double w : omega) CHECK(std::fabs(w) <= 1.5);
+    for (const double size : {0.1, 1.0, 100.0}) {
+      auto e = in_a_row(l);
+      std::array<double, 3> by{size * omega[0], size * omega[1], size * omega[2]};
+      turn_by<3>(e, by);
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) {
+          double before = 0, after = 0;
+          for (int beta = 0; beta < 3; ++beta) {
+            before += l[beta][a] * l[beta][b];
+            after += e[3 * beta + a] * e[3 * beta + b];
+          }
+          CHECK(after == Approx(before).margin(1e-12));
+        }
+    }
+  }
+}
+
+TEST_CASE("turns in plane strain are those of space about the third vector") {
+  Random random(3);
+  for (int i = 0; i < 20; ++i) {
+    Numbers l = rows<double>(random.cobasis(0.2));
+    l[0][2] = l[1][2] = l[2][0] = l[2][1] = 0;
+    const double angle = random.between(-0.5, 0.5);
+    const Numbers r = turned(l, angle, {0, 0, 1});
+    const auto in_plane = [](const Numbers& e) {
+      return make_cobasis<Plane>([&](int c) { return c == 4 ? e[2][2] : e[c / 2][c % 2]; });
+    };
+    const auto omega = turn(in_plane(l), in_plane(r));
+    CHECK(omega[0] == Approx(-std::sin(angle)).epsilon(1e-12));
+    std::array<double, 5> e{l[0][0], l[0][1], l[1][0], l[1][1], l[2][2]};
+    auto whole = in_a_row(l);
+    turn_by<2>(e, omega);
+    turn_by<3>(whole, std::array<double, 3>{omega[0], 0, 0});
+    for (int c = 0; c < 5; ++c) CHECK(e[c] == Approx(whole[c == 4 ? 8 : 3 * (c / 2) + c % 2]).margin(1e-14));
   }
 }

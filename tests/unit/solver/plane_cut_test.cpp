@@ -287,6 +287,40 @@ TEST_CASE("the part of a cell below a plane is closed by its faces and the secti
   });
 }
 
+TEST_CASE("the centroids of the two sides of a plane balance, and move as the section between them") {
+  for_random_cells(20, 0.2, [](Random& random, const Mesh& mesh, const CellCorners& cell) {
+    const Point n = random.direction(mesh.dimension);
+    const auto [low, high] = range(cell, n);
+    const auto moment = [&](const CutPlane& plane) { return volume_below(cell, plane) * centroid_below(cell, plane); };
+    const double d = random(0.8 * low, 0.8 * high), size = size_of(mesh), push = 1e-5 * size;
+    const CutPlane plane{n, d};
+    const Point whole = centroid_below(cell, {n, 1.001 * high});
+    CHECK(length(moment(plane) + moment(complement(plane)) - whole) < 1e-14 * size);
+    const PlaneSection cut = section(cell, plane);
+    const Point change = moment({n, d + push}) - moment({n, d - push});
+    const Point expected = 2 * push * cut.area / cell.volume * cut.centroid;
+    CHECK(length(change - expected) < 1e-4 * push);
+  });
+}
+
+TEST_CASE("with values at their centroids, faces and section give the exact gradient of a linear field") {
+  for_random_cells(40, 0, [](Random& random, const Mesh& mesh, const CellCorners& cell) {
+    const FaceOutlines outlines(mesh);
+    const Point n = random.direction(mesh.dimension), gradient = random.direction(mesh.dimension);
+    const double fraction = random(0, 1);
+    const CutPlane plane{n, place_plane(cell, n, fraction)};
+    const PlaneSection cut = section(cell, plane);
+    Point sum = cut.area * dot(gradient, cut.centroid) * n;
+    for (int face = 0; face < mesh.n_faces(); ++face) {
+      const FaceOutline outline = outlines[face];
+      const Point center = outlines.center(face, 0), wet = center + wetted_centroid(outline, center, plane);
+      const double area = wetted_fraction(outline, center, plane, 0) * mesh.area[face];
+      sum = sum + area * dot(gradient, wet) * normal(mesh, face);
+    }
+    CHECK(length(sum - fraction * cell.volume * gradient) < 1e-13 * cell.volume);
+  });
+}
+
 TEST_CASE("a plane that moves through a cell carries exactly what its faces let pass") {
   for_random_cells(40, 0, [](Random& random, const Mesh& mesh, const CellCorners& cell) {
     const FaceOutlines outlines(mesh);
