@@ -32,12 +32,13 @@ class Soak(unittest.TestCase):
                 out.write(f'#!/bin/sh\n[ "${{OMPI_COMM_WORLD_RANK:-0}}" = 0 ] || exit 0\nmkdir -p "$5"\n{does}\n')
             os.chmod(program, stat.S_IRWXU)
             done = self.run_tool(program, "--scenes", "1", "--seed", "4")
-            return done.returncode, done.stdout
+            return done.returncode, done.stdout + done.stderr
 
     def test_a_run_that_finishes_or_stops_with_a_reason_is_no_find(self):
-        self.assertEqual(self.found(finishing())[0], 0)
+        code, said = self.found(finishing())
+        self.assertEqual(code, 0, said)
         code, said = self.found(finishing() + "; echo why >&2; exit 3")
-        self.assertEqual(code, 0)
+        self.assertEqual(code, 0, said)
         self.assertIn("1 scenes (1 stopped with a reason): nothing found", said)
 
     def test_what_is_lost_or_no_number_or_ends_without_a_reason_is(self):
@@ -53,7 +54,7 @@ class Soak(unittest.TestCase):
 
     def test_what_differs_on_several_ranks_is(self):
         code, said = self.found(finishing() + '; echo "$OMPI_COMM_WORLD_SIZE" > "$5/a.csv"')
-        self.assertEqual(code, 1)
+        self.assertEqual(code, 1, said)
         self.assertRegex(said, "seed 4: on [23] ranks other than on one: a.csv\n  mpirun ")
 
     @unittest.skipUnless(program, "needs COBASIS_PROGRAM")
