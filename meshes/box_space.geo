@@ -19,7 +19,7 @@ EndIf
 h = length / n;
 ny = Round(height / h);
 nz = Round(width / h);
-third = Round(n / 3);
+third = n == 5 ? 1 : Round(n / 3);  // a layer remains for the tetrahedra
 Mesh.CharacteristicLengthMin = h;
 Mesh.CharacteristicLengthMax = h;
 

@@ -1,5 +1,6 @@
 // What a run tells of itself: snapshots, totals, shares.
 #include <array>
+#include <span>
 
 #include "solver/solver.hpp"
 
@@ -146,9 +147,9 @@ std::vector<Column> Solver::totals() const {
   }
   for (const BoundaryGroup& group : mesh_.boundary_groups) {
     const auto outflow = [&](int k, int component, const std::string& name, const std::string& unit) {
-      const double* booked = booked_[k][component].data() - mesh_.first_boundary_face();
-      columns.push_back(
-          {"outflow." + group.name + "." + name, unit, mpi_.exact_sum({booked + group.first, booked + group.last})});
+      const auto booked =
+          std::span(booked_[k][component]).subspan(group.first - mesh_.first_boundary_face(), group.last - group.first);
+      columns.push_back({"outflow." + group.name + "." + name, unit, mpi_.exact_sum(booked)});
     };
     for (int k = 0; k < fields_.n_phases(); ++k) {
       const std::string& phase = fields_.phases[k].name;

@@ -97,7 +97,9 @@ double filled_after(const Volume& l, const Volume& m, double rest, double p_I, d
       middle = k(rest - (rest - filled) * std::exp(-0.5 * first * step));
       if (!(std::fabs(middle - first) * step > 0.02) || step < 1e-9 * dt) break;
     }
-    filled = rest - (rest - filled) * std::exp(-middle * step);
+    const double next = rest - (rest - filled) * std::exp(-middle * step);
+    if (next == filled) break;  // k is round-off, and may ask for 1e14 substeps more
+    filled = next;
     left -= step;
   }
   return filled;

@@ -76,8 +76,8 @@ void check_commands(const std::string& document) {
 
 }  // namespace
 
-TEST_CASE("the commands of README.md work") { check_commands("README.md"); }
-TEST_CASE("the commands of cases/README.md work") { check_commands("cases/README.md"); }
+TEST_CASE("the commands of README.md work", "[long]") { check_commands("README.md"); }
+TEST_CASE("the commands of cases/README.md work", "[long]") { check_commands("cases/README.md"); }
 
 TEST_CASE("the two commands for people are there, can be executed and explain themselves") {
   const Folder folder;

@@ -144,7 +144,7 @@ TEST_CASE("pressure and velocity stay uniform across a sharp front at 30 degrees
       oblique(box("box.geo", "{ n = 50, element = " + std::to_string(element) + " }")) + sharp(order), dust);
   check_width(scene, {std::sqrt(0.75), 0.5, 0}, 1.0 / 50);
 }
-TEST_CASE("pressure and velocity stay uniform across a sharp front at 30 degrees to a slice of tetrahedra") {
+TEST_CASE("pressure and velocity stay uniform across a sharp front at 30 degrees to a slice of tetrahedra", "[long]") {
   const int order = GENERATE(1, 2);
   CAPTURE(order);
   const Scene scene = run_advection(

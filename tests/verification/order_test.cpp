@@ -88,7 +88,7 @@ TEST_CASE("small waves in a solid converge with second order on triangles") {
 TEST_CASE("small waves in a solid converge with second order on quadrilaterals") {
   check_solid_waves(Cells::quadrilaterals, {32, 64, 128}, 0.5);
 }
-TEST_CASE("small waves in a solid converge with second order on tetrahedra") {
+TEST_CASE("small waves in a solid converge with second order on tetrahedra", "[long]") {
   check_solid_waves(Cells::tetrahedra, {8, 16, 32}, 0.15);
 }
 TEST_CASE("small waves in a solid converge with second order on hexahedra") {

@@ -74,7 +74,8 @@ std::function<Numbers(const Point&)> reference() {
 
 }  // namespace
 
-TEST_CASE("a swirl in a prestressed solid converges with second order, to a quarter of the first order's errors") {
+TEST_CASE("a swirl in a prestressed solid converges with second order, to a quarter of the first order's errors",
+          "[long]") {
   // On coarse quadrilaterals errors of either sign cancel: from 32 to 64 cells the stress falls with order 1.4, then
   // with 1.8 and 1.9.
   const auto [cells, meshes] = GENERATE(

@@ -15,16 +15,28 @@ class Outcome:
     summary: dict  # the numbers of its last line
 
 
-def run_case(program, case, directory, settings, limit):
-    """A case of cases/ on one rank; what was in the directory goes."""
-    shutil.rmtree(directory, ignore_errors=True)
-    command = [program, "run", os.path.join(ROOT, "cases", case + ".toml"), "--quiet", "--output", directory]
+def command_of(program, case, directory, settings, ranks=1):
+    """Of a case of cases/."""
+    command = ["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
+    command += [program, "run", os.path.join(ROOT, "cases", case + ".toml"), "--quiet", "--output", directory]
     for key, value in settings.items():
         command += ["--set", f"{key}={value}"]
+    return command
+
+
+def run_case(program, case, directory, settings, limit, ranks=1):
+    """What was in the directory goes."""
+    shutil.rmtree(directory, ignore_errors=True)
+    command = command_of(program, case, directory, settings, ranks)
+    environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    run = subprocess.Popen(command, text=True, env=environment, stdin=subprocess.DEVNULL,
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # fmt: skip
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=limit, stdin=subprocess.DEVNULL)
+        out, err = run.communicate(timeout=limit)
     except subprocess.TimeoutExpired:
+        run.kill() if ranks == 1 else run.terminate()  # on SIGTERM mpirun ends its ranks, which may hang
+        run.communicate()
         return Outcome(124, f"stopped after {limit} s", {})
-    summary = dict(re.findall(r"(\w+)=(\S+)", done.stdout.splitlines()[-1])) if done.stdout.strip() else {}
-    words = (done.stderr.strip().splitlines() or [""])[-1] if done.returncode else ""
-    return Outcome(done.returncode, words, summary)
+    summary = dict(re.findall(r"(\w+)=(\S+)", out.splitlines()[-1])) if out.strip() else {}
+    said = err.split("-" * 60)[0].strip().splitlines()  # what mpirun adds is between lines
+    return Outcome(run.returncode, (said or [""])[-1] if run.returncode else "", summary)

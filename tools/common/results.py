@@ -29,6 +29,12 @@ def columns(file):
     return dict(zip(rows[0], values.T))
 
 
+def tables(folder):
+    """{name: bytes} of all that is not fields."""
+    return {str(f.relative_to(folder)): f.read_bytes() for f in sorted(folder.rglob("*"))
+            if f.suffix in (".csv", ".series", ".pvd")}  # fmt: skip
+
+
 def outputs(pvd):
     """[(time, file)] of a .pvd."""
     try:

@@ -40,3 +40,15 @@ TEST_CASE("squares have aspect 1, warped faces a warp") {
   // corners +-0.155 off a plane of slopes -0.03 and -0.09
   CHECK(mesh_info(request).worst_warp == Approx(0.155 * std::pow(1.009, -0.75)));
 }
+
+TEST_CASE("the box of mixed cells has all types, and its volume, from four cells along x") {
+  MeshRequest request;
+  request.file = SOURCE_DIR "/meshes/box_space.geo";
+  for (const int n : {4, 5, 6, 7, 8}) {
+    CAPTURE(n);
+    request.parameters = {{"element", 0}, {"n", n}};
+    const MeshInfo info = mesh_info(request);
+    CHECK(info.volume == Approx(1));
+    CHECK(std::ranges::count(info.cells_by_type, 0) == 2);
+  }
+}
