@@ -73,7 +73,7 @@ COBASIS_KERNEL void copy_to_faces(Phase& phase, const Faces& faces, const CellLi
 
 /// Weights of neighbours without the phase, so that there is no slope where nothing is known, and of all in addition,
 /// so that no matrix is singular.
-inline constexpr double least_known = 0.02, always_known = 1e-3;
+inline constexpr double least_known = 0.02, always_known = 1e-6;
 
 template <class Real>
 std::array<Real, 2> product(const std::array<std::array<Real, 2>, 2>& m, const std::array<Real, 2>& v) {
@@ -207,7 +207,10 @@ struct Neighbourhood {
         const std::array<Real, D> own = centre(at);
         Indices<Real> face = lookup<Real>(&faces.cell_faces[entry(j)], at);
         for (auto& f : face) f >>= 1;
-        for (int d = 0; d < D; ++d) r[d] = r[d] + (gather<Real>(phase.wetted_at[d].data(), face) - own[d]);
+        // cells with fewer faces than others have their own centroid instead, which limits nothing
+        const Mask<Real> exists = gather<Real>(faces.area.data(), face) > Real(0.0);
+        for (int d = 0; d < D; ++d)
+          r[d] = select(exists, r[d] + (gather<Real>(phase.wetted_at[d].data(), face) - own[d]), Real(0.0));
       }
     }
     return r;

@@ -121,7 +121,7 @@ TEST_CASE("two layers of fluid under gravity, each with its own formulas, stay a
   const std::string interface = GENERATE(as<std::string>{}, "diffuse", "sharp");
   CAPTURE(interface);
   std::vector<double> speeds;
-  for (const int n : {20, 40}) {
+  for (const int n : {40, 80}) {
     Scene scene = make_scene(
         "scheme = { interface = \"" + interface +
             "\" }\nmesh = \"@box.geo\"\nmesh_parameters = { length = 0.5, n = " + std::to_string(n / 2) + R"( }
