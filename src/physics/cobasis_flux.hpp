@@ -36,21 +36,24 @@ Cobasis<G, Real> operator*(const Real& s, const Cobasis<G, Real>& e) {
   return {s * e.e1, s * e.e2, s * e.e3};
 }
 
-/// How the vectors of one cobasis are turned among themselves against those of another: of r = l R with a rotation R
-/// by little, R - 1; its components 12 (, 13, 23). Bounded for any two.
+/// How the vectors of one cobasis are turned among themselves against those of another, as seen along a face: of r = l
+/// R with a rotation R by little, R - 1, in space only half of what turns out of the face; its components 12 (, 13,
+/// 23). Nothing for the two sides of a wave, whose difference is normal to the face. Bounded for any two.
 template <class G, class Real>
-std::array<Real, G::dimension == 2 ? 1 : 3> turn(const Cobasis<G, Real>& l, const Cobasis<G, Real>& r) {
-  const auto part = [](const auto& l_a, const auto& l_b, const auto& r_a, const auto& r_b) {
-    return dot(l_a, r_b) - dot(l_b, r_a);
+std::array<Real, G::dimension == 2 ? 1 : 3> turn(const Cobasis<G, Real>& l, const Cobasis<G, Real>& r,
+                                                 const Vector<G, Real>& n) {
+  const auto along_face = [&](const auto& a, const auto& b) { return dot(a, b) - dot(a, n) * dot(b, n); };
+  const auto part = [&](const auto& l_a, const auto& l_b, const auto& r_a, const auto& r_b) {
+    return along_face(l_a, r_b) - along_face(l_b, r_a);
   };
-  const auto square = [](const Cobasis<G, Real>& e) {
-    const Real in_plane = dot(e.e1, e.e1) + dot(e.e2, e.e2);
+  const auto square = [&](const Cobasis<G, Real>& e) {
+    const Real in_plane = along_face(e.e1, e.e1) + along_face(e.e2, e.e2);
     if constexpr (G::dimension == 2)
       return in_plane;
     else
-      return in_plane + dot(e.e3, e.e3);
+      return in_plane + along_face(e.e3, e.e3);
   };
-  const Real scale = G::dimension / (square(l) + square(r));
+  const Real scale = 2.0 / (square(l) + square(r));
   if constexpr (G::dimension == 2)
     return {scale * part(l.e1, l.e2, r.e1, r.e2)};
   else

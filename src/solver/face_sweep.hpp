@@ -276,7 +276,7 @@ COBASIS_KERNEL void sweep_same(Faces& faces, Phase& phase, Segment segment) {
       std::array<Real, L::n_turn> turned;
       turned.fill(Real(0.0));
       if constexpr (Order == 2 && B == Beyond::cell) {
-        turned = turn(e_l, e_r);
+        turned = turn(e_l, e_r, frame.n);
         for (auto& angle : turned) angle = (turning * weight * faster(l.cs, r.cs)) * angle;
       }
       for (int c = 0; c < L::n_turn; ++c) keep(L::flux_turn + c, turned[c]);

@@ -121,7 +121,15 @@ Point wetted_centroid(const FaceOutline& face, const Point& center, const CutPla
   }
   if (n < 2) return {};
   if (face.size == 2) return 0.5 * (kept[0] + kept[1]);
-  return face_geometry({kept.data(), static_cast<std::size_t>(n)}).centroid;
+  Point area, moment;
+  for (int i = 1; i + 1 < n; ++i) area = area + cross(kept[i] - kept[0], kept[i + 1] - kept[0]);
+  double whole = 0;
+  for (int i = 1; i + 1 < n; ++i) {
+    const double part = dot(cross(kept[i] - kept[0], kept[i + 1] - kept[0]), area);
+    whole += part;
+    moment = moment + part / 3 * (kept[0] + kept[i] + kept[i + 1]);
+  }
+  return whole > 0 ? 1 / whole * moment : Point{};
 }
 
 double wetted_fraction(const FaceOutline& face, const Point& center, const CutPlane& plane, double shift) {

@@ -152,8 +152,9 @@ phase.water = { density = "1100 - 200*y", pressure = "1000*(375 + 1100*(0.5 - y)
         mean(scene, [&](auto c) { return std::hypot(result.mixture.velocity[0][c], result.mixture.velocity[1][c]); }));
   }
   INFO("mean speed " << speeds[0] << ", " << speeds[1] << " m/s");
-  CHECK(speeds[1] < 2e-3 * 1000 * 5e-3);  // of what it would have fallen freely
-  CHECK(std::log2(speeds[0] / speeds[1]) > 1.7);
+  CHECK(speeds[1] < 8e-5 * 1000 * 5e-3);  // of what it would have fallen freely
+  // beside planes slopes know no neighbour on the other side: 1.67 here, 1.5 from 40 to 80 cells
+  CHECK(std::log2(speeds[0] / speeds[1]) > (interface == "sharp" ? 1.4 : 1.7));
 }
 
 TEST_CASE("a column of water between walls stays at rest to the order of the scheme") {

@@ -80,7 +80,7 @@ struct HalfFilled {
     for (int j = 0; j < mesh.max_cell_faces; ++j) {
       const std::int32_t entry = mesh.cell_faces[static_cast<std::size_t>(j) * mesh.cell_stride + cell];
       if (entry < 0) continue;
-      const Point delta = mesh.face_delta[entry >> 1];
+      const Point delta = (entry & 1 ? -1.0 : 1.0) * mesh.face_delta[entry >> 1];
       Vector r{};
       r[0] = delta.x, r[1] = delta.y;
       if constexpr (D == 3) r[2] = delta.z;

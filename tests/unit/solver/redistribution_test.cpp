@@ -201,23 +201,22 @@ TEST_CASE("the partner is the neighbour with most of the phase, of equals the on
 }
 
 TEST_CASE("at second order what varies linearly with the middle of the phase stays, the rest keeps the difference") {
-  constexpr double alpha = 0.2, slope = 0.3, u = 5, v = -2, E = 7;  // the phase fills 0 … 1 and, of the rest, 1 … 1.2
+  constexpr double alpha = 0.2, slope = 0.3, u = 5, v = -2, E = 27;  // the phase fills 0 … 1 and, of the rest, 1 … 1.2
+  constexpr double gamma = 1.4, e = E - 0.5 * (u * u + v * v);
   const auto rho = [](double x) { return 2 + slope * x; };
   for (const double more : {0.0, 0.4}) {  // beyond what the slope says
     Row row({0, 1, 2}, {1, alpha}, {0, 0});
-    const Faces faces = make_faces(row.mesh);
     Phase& phase = row.fields.phases[0];
-    phase.primitive.resize(Layout<Plane, Kind::fluid>::n_primitive);
-    phase.face_states.stride = FaceStates::stride_for(faces.n);
-    phase.face_states.storage = RawStorage(2 * phase.face_states.stride * Layout<Plane, Kind::fluid>::n_face_state);
-    for (std::int32_t face = 0; face < faces.n; ++face)
-      for (const int side : {0, 1}) {
-        const auto put = [&](int c, double value) {
-          phase.face_states.component(c)[side * phase.face_states.stride + face] = value;
-        };
-        using L = Layout<Plane, Kind::fluid>;
-        put(L::rho, rho(row.mesh.face_centroid[face].x)), put(L::u, u), put(L::u + 1, v), put(L::E, E);
-      }
+    using L = Layout<Plane, Kind::fluid>;
+    phase.eos = StiffenedGas{gamma, 0};
+    phase.centre = CellNumbers(row.mesh.n_all(), 2);
+    phase.used_slopes = CellNumbers(row.mesh.n_all(), 2 * L::ch2);
+    phase.centre.component(0)[row.cell[1]] = 1 + alpha / 2 - 1.5;
+    phase.used_slopes.component(2 * L::rho)[row.cell[0]] = slope;
+    phase.used_slopes.component(2 * L::p)[row.cell[0]] = (gamma - 1) * slope * e;  // of constant energy
+    const double donor[] = {rho(0.5), u, v, (gamma - 1) * rho(0.5) * e};
+    phase.primitive.assign(L::n_primitive, AlignedVector<double>(row.mesh.n_all(), 0));
+    for (int c = 0; c < L::ch2; ++c) phase.primitive[c][row.cell[0]] = donor[c];
     const auto set = [&](std::int32_t cell, double density) {
       const double Q[] = {density, density * u, density * v, density * E};
       for (int c = 0; c < 4; ++c) set_intensive(row.fields, 0, c, cell, Q[c]);
