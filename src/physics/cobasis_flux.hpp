@@ -53,7 +53,7 @@ std::array<Real, G::dimension == 2 ? 1 : 3> turn(const Cobasis<G, Real>& l, cons
     else
       return in_plane + along_face(e.e3, e.e3);
   };
-  const Real scale = 2.0 / (square(l) + square(r));
+  const Real scale = 2.0 / larger(square(l) + square(r), Real(1e-300));
   if constexpr (G::dimension == 2)
     return {scale * part(l.e1, l.e2, r.e1, r.e2)};
   else

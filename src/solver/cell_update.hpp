@@ -183,7 +183,9 @@ COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volu
         const Real total = change[L::cobasis + c] - moved * e_change[c];
         e[c] = e[c] + cobasis_rate * total;
       }
-      for (auto& t : turned) t = rate * t;
+      // an absent phase has no e to turn: what its faces hold is of some step before
+      const Real turning_rate = select(cobasis_rate == Real(0.0), Real(0.0), rate);
+      for (auto& t : turned) t = turning_rate * t;
       turn_by<D>(e, turned);
       for (int c = 0; c < L::n_cobasis; ++c) scatter(e[c], phase.conserved[L::cobasis + c].data(), at);
     }

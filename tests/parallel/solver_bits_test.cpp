@@ -70,8 +70,7 @@ double check_bits_of_text(std::int64_t steps, const std::string& name, const std
 
 const std::string triangles = "mesh = \"@box.geo\"\nmesh_parameters = { n = 20, element = 3 }\nend_time = 1\n",
                   hexahedra = "mesh = \"@box_space.geo\"\nmesh_parameters = { n = 8 }\nend_time = 1\n",
-                  tetrahedra = "mesh = \"@box_space.geo\"\nmesh_parameters = { n = 8, element = 4 }\nend_time = 1\n",
-                  all_types = "mesh = \"@box_space.geo\"\nmesh_parameters = { n = 6, element = 0 }\nend_time = 1\n";
+                  tetrahedra = "mesh = \"@box_space.geo\"\nmesh_parameters = { n = 8, element = 4 }\nend_time = 1\n";
 const std::string aluminium = "[phase.aluminium]\nmaterial = \"aluminium\"\n";
 
 std::string block_that_moves(bool space) {
@@ -132,9 +131,8 @@ TEST_CASE("sharp interfaces of second order give the same bits on any number of 
   check_bits_of_text(60, "disc in void", second_order + triangles + disc_in_void);
 }
 
-TEST_CASE("a sharp contact between tetrahedra, or cells of all types, gives the same bits on any number of ranks") {
-  const std::string cells = GENERATE(tetrahedra, all_types);
-  check_bits_of_text(40, "bodies that meet", second_order + cells + R"([phase.copper]
+TEST_CASE("a sharp contact between tetrahedra gives the same bits on any number of ranks") {
+  check_bits_of_text(60, "bodies that meet", second_order + tetrahedra + R"([phase.copper]
 material = "copper"
 [phase.aluminium]
 material = "aluminium"

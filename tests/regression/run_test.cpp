@@ -101,6 +101,13 @@ TEST_CASE("the tables of a run on two ranks are those of a run on one to the las
   };
   check_same("droplet", "--set mesh_parameters.h=1.5e-3 end_time=0.5e-3", {"history.csv"});
   check_same("impact", "--set 'mesh_parameters={ n = 60, element = 3 }'", {"history.csv", "axis.csv"});
+  // cells with fewer faces than others, which another rank may not have
+  check_same("water_air",
+             "--set 'mesh=\"../meshes/box_space.geo\"' 'mesh_parameters={ n = 7, element = 0 }' max_steps=40 "
+             "output.history_every=1 'region.0.velocity=[-187, 1577, -357]' 'region.1.velocity=[879, 1222, -1439]' "
+             "'region.1.point=[0.49, 0.63, 0.68]' 'region.1.normal=[0.757, -0.862, 0.611]' "
+             "'boundary={ \"*\" = \"transmissive\" }' 'line=[]'",
+             {"history.csv"});
 }
 
 TEST_CASE("the .pvd lists every output with its time, and each leads to files with the documented arrays") {
