@@ -36,9 +36,9 @@ Cobasis<G, Real> operator*(const Real& s, const Cobasis<G, Real>& e) {
   return {s * e.e1, s * e.e2, s * e.e3};
 }
 
-/// How the vectors of one cobasis are turned among themselves against those of another, as seen along a face: of r = l
-/// R with a rotation R by little, R - 1, in space only half of what turns out of the face; its components 12 (, 13,
-/// 23). Nothing for the two sides of a wave, whose difference is normal to the face. Bounded for any two.
+/// How the vectors of one cobasis are turned among themselves against those of another, as seen along a face: the
+/// components 12 (, 13, 23) of R - 1 where r is l times a rotation R by little, in space only half of what turns out of
+/// the face. Nothing for the two sides of a wave, whose difference is normal to the face. Bounded for any two.
 template <class G, class Real>
 std::array<Real, G::dimension == 2 ? 1 : 3> turn(const Cobasis<G, Real>& l, const Cobasis<G, Real>& r,
                                                  const Vector<G, Real>& n) {

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "physics/smooth_flow.hpp"
-#include "solver/face_sweep.hpp"
+#include "solver/contact_sweep.hpp"
+#include "solver/mean_state.hpp"
 
 namespace cobasis {
 
@@ -76,7 +77,7 @@ struct SlopedSide {
   Real scale;  ///< of the metric
 
   SlopedSide(const Phase& of, const Indices<Real>& in, const ContactList& list, std::int32_t i) : phase(of), cell(in) {
-    auto mean = mean_state<G, K, Real>(phase, cell);
+    const auto mean = mean_state<G, K, Real>(phase, cell);
     w = mean;
     for (int d = 0; d < G::dimension; ++d) {
       const Real r = load<Real>(&list.at[d][i]) - gather<Real>(phase.centre.component(d), cell);
@@ -85,14 +86,10 @@ struct SlopedSide {
     }
     Mask<Real> good = w[P::rho] > Real(0.0);
     if constexpr (K == Kind::solid) {
-      const Real det = determinant(cobasis_of(w)), expected = determinant(cobasis_of(mean));
-      good = good && det > least_det * expected && det < most_det * expected;
+      good = good && is_one_deformation(determinant(cobasis_of<G, K>(w)), determinant(cobasis_of<G, K>(mean)));
     }
     for (int v = 0; v < P::size; ++v) w[v] = select(good, w[v], mean[v]);
-    if constexpr (K == Kind::solid) scale = metric_scale(cobasis_of(w));
-  }
-  static auto cobasis_of(const typename P::template State<Real>& s) {
-    return make_cobasis<G>([&](int c) { return s[P::e + c]; });
+    if constexpr (K == Kind::solid) scale = metric_scale(cobasis_of<G, K>(w));
   }
   template <class L>
   Real primitive(int c) const {

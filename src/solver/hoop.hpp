@@ -7,7 +7,7 @@
 #pragma once
 
 #include "physics/smooth_flow.hpp"
-#include "solver/field.hpp"
+#include "solver/mean_state.hpp"
 
 namespace cobasis {
 
@@ -34,18 +34,9 @@ void keep_hoop_of_cell(Phase& phase, const Rings& rings, const Indices<Real>& at
 /// For the listed cells.
 template <class G, Kind K, class Real>
 COBASIS_KERNEL void hoop_of_cells(Phase& phase, const Rings& rings, const CellList& cells, std::int32_t n) {
-  using L = Layout<G, K>;
-  using P = Primitives<G, K>;
   for (std::int32_t i = 0; i < n; i += lanes<Real>) {
     const Indices<Real> at = load_indices<Real>(&cells[i]);
-    typename P::template State<Real> w;
-    for (int v = 0; v < P::size; ++v)
-      w[v] = gather<Real>((v == P::rho ? phase.density()
-                           : v < P::e  ? phase.primitive[v]
-                                       : phase.conserved[L::cobasis + v - P::e])
-                              .data(),
-                          at);
-    keep_hoop_of_cell<K>(phase, rings, at, w);
+    keep_hoop_of_cell<K>(phase, rings, at, mean_state<G, K, Real>(phase, at));
   }
 }
 

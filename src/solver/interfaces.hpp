@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "solver/face_sweep.hpp"
+#include "solver/contact_sweep.hpp"
 
 namespace cobasis {
 

@@ -4,6 +4,7 @@
 
 #include "solver/cell_update.hpp"
 #include "solver/contact_cells.hpp"
+#include "solver/contact_sweep.hpp"
 #include "solver/reconstruct.hpp"
 
 namespace cobasis {

@@ -2,11 +2,12 @@
 #pragma once
 
 #include "physics/smooth_flow.hpp"
-#include "solver/face_sweep.hpp"
 #include "solver/hoop.hpp"
+#include "solver/mean_state.hpp"
 #include "solver/stencil.hpp"
 
 namespace cobasis {
+
 struct ReconstructionOptions {
   double dt = 0;  ///< of the step; 0: states at its beginning
   bool limited = true;
@@ -38,7 +39,7 @@ void store_face_state(Phase& phase, const EquationOfState& eos,
     keep(L::u + d, s[P::u + d]);
   }
   if constexpr (K == Kind::solid) {
-    const Cobasis<G, Real> e = make_cobasis<G>([&](int c) { return s[P::e + c]; });
+    const Cobasis<G, Real> e = cobasis_of<G, K>(s);
     const Real scale = metric_scale(e);
     E = E + elastic_energy(phase.material, scaled_metric(e, scale));
     keep(L::metric_scale, scale);
@@ -331,19 +332,14 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
       return s;
     };
     const auto at_face = [&](int j) { return at_place(here.to_face(j)); };
-    const auto cobasis_of = [&](const typename P::template State<Real>& s) {
-      return make_cobasis<G>([&](int c) { return s[P::e + c]; });
-    };
     Mask<Real> good = !is_nan(w[P::rho]);
     Real det_per_density(0.0);
-    if constexpr (K == Kind::solid) det_per_density = determinant(cobasis_of(w)) / w[P::rho];
+    if constexpr (K == Kind::solid) det_per_density = determinant(cobasis_of<G, K>(w)) / w[P::rho];
     for (int j = 0; j < faces.max_cell_faces; ++j) {
       const auto s = at_face(j);
       good = good && s[P::rho] > Real(0.0) && s[P::rho] < Real(eos.densest()) && s[P::p] > Real(eos.lowest_pressure());
-      if constexpr (K == Kind::solid) {
-        const Real det = determinant(cobasis_of(s)), expected = det_per_density * s[P::rho];
-        good = good && det > least_det * expected && det < most_det * expected;
-      }
+      if constexpr (K == Kind::solid)
+        good = good && is_one_deformation(determinant(cobasis_of<G, K>(s)), det_per_density * s[P::rho]);
     }
     if (any(!good)) [[unlikely]] {
       for (int k = 0; k < lanes<Real>; ++k) fallen += i + k < n && !lane(good, k);
