@@ -86,6 +86,7 @@ COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volu
   using L = Layout<G, K>;
   constexpr int D = G::dimension;
   const std::int32_t first_mixed = first_mixed_slot(faces);
+  [[maybe_unused]] const bool turns = phase.is_second_order();
   for (std::int32_t i = 0; i < n; i += lanes<Real>) {
     const Indices<Real> at = load_indices<Real>(&cells[i]);
     std::array<Real, L::n_conserved> change;
@@ -95,8 +96,8 @@ COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volu
     std::array<Real, D> u;
     std::array<std::array<Real, D>, D> deformation;  // sum A n (u* - u_cell)
     [[maybe_unused]] std::array<Real, L::n_turn> turned;
-    turned.fill(Real(0.0));
     if constexpr (K == Kind::solid) {
+      turned.fill(Real(0.0));
       for (int c = 0; c < L::n_cobasis; ++c) e[c] = gather<Real>(phase.conserved[L::cobasis + c].data(), at);
       for (int d = 0; d < D; ++d) u[d] = gather<Real>(phase.primitive[L::u + d].data(), at);
       for (auto& row : deformation) row.fill(Real(0.0));
@@ -122,7 +123,8 @@ COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volu
         for (int c = 0; c < L::n_cobasis; ++c)
           change[L::cobasis + c] = change[L::cobasis + c] + direction * (flux(L::flux_cobasis + c) - through * e[c]);
         const AlignedVector<double>* const normal[] = {&faces.nx, &faces.ny, &faces.nz};
-        for (int c = 0; c < L::n_turn; ++c) turned[c] = turned[c] - direction * flux(L::flux_turn + c);
+        if (turns)
+          for (int c = 0; c < L::n_turn; ++c) turned[c] = turned[c] - direction * flux(L::flux_turn + c);
         std::array<Real, D> du;
         for (int d = 0; d < D; ++d) du[d] = direction * (flux(L::flux_velocity + d) - area * u[d]);
         for (int d = 0; d < D; ++d) {
@@ -183,10 +185,13 @@ COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volu
         const Real total = change[L::cobasis + c] - moved * e_change[c];
         e[c] = e[c] + cobasis_rate * total;
       }
-      // an absent phase has no e to turn: what its faces hold is of some step before
-      const Real turning_rate = select(cobasis_rate == Real(0.0), Real(0.0), rate);
-      for (auto& t : turned) t = turning_rate * t;
-      turn_by<D>(e, turned);
+      if (turns) {
+        Real turning_rate = rate;
+        // an absent phase has no e to turn: what its faces hold is of some step before
+        if constexpr (Mixed) turning_rate = select(cobasis_rate == Real(0.0), Real(0.0), rate);
+        for (auto& t : turned) t = turning_rate * t;
+        turn_by<D>(e, turned);
+      }
       for (int c = 0; c < L::n_cobasis; ++c) scatter(e[c], phase.conserved[L::cobasis + c].data(), at);
     }
   }

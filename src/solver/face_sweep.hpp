@@ -227,13 +227,15 @@ COBASIS_KERNEL void sweep_same(Faces& faces, Phase& phase, Segment segment) {
       keep(L::flux_velocity, weight * u_star.x), keep(L::flux_velocity + 1, weight * u_star.y);
       if constexpr (G::dimension == 3) keep(L::flux_velocity + 2, weight * u_star.z);
       keep(L::flux_area, weight);
-      std::array<Real, L::n_turn> turned;
-      turned.fill(Real(0.0));
-      if constexpr (Order == 2 && B == Beyond::cell) {
-        turned = turn(e_l, e_r, frame.n);
-        for (auto& angle : turned) angle = (turning * weight * faster(l.cs, r.cs)) * angle;
+      if constexpr (Order == 2) {
+        std::array<Real, L::n_turn> turned;
+        turned.fill(Real(0.0));
+        if constexpr (B == Beyond::cell) {
+          turned = turn(e_l, e_r, frame.n);
+          for (auto& angle : turned) angle = (turning * weight * faster(l.cs, r.cs)) * angle;
+        }
+        for (int c = 0; c < L::n_turn; ++c) keep(L::flux_turn + c, turned[c]);
       }
-      for (int c = 0; c < L::n_turn; ++c) keep(L::flux_turn + c, turned[c]);
     }
     const Vector<G, Real> momentum = out_of_frame(frame, flux.momentum);
     keep(L::mass, weight * flux.mass);

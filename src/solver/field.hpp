@@ -27,8 +27,8 @@ struct Layout {
 
   /// What a face does to a phase: flux of mass, momentum, energy (left to right); of a solid also what its cobasis
   /// changes by: u e and u of the face (normal velocities), the velocity u* at the face, the area, and the turn that it
-  /// gives the right cell, all but the area times the area. In mixed faces also, per side, the gain of mass, momentum,
-  /// energy, alpha, cobasis by contacts.
+  /// gives the right cell at second order, all but the area times the area. In mixed faces also, per side, the gain of
+  /// mass, momentum, energy, alpha, cobasis by contacts.
   static constexpr int flux_cobasis = 2 + D, flux_volume = flux_cobasis + n_cobasis, flux_velocity = flux_volume + 1,
                        flux_area = flux_velocity + D;
   static constexpr int flux_turn = flux_area + 1, n_turn = D == 2 ? 1 : 3;
@@ -115,6 +115,7 @@ struct Phase {
     return static_cast<int>(conserved.size() + primitive.size()) + (alpha.empty() ? -1 : 1);
   }
   int n_conserved() const { return static_cast<int>(conserved.size()); }
+  bool is_second_order() const { return face_states.stride != 0; }
 };
 
 /// Cells to do something with; `fill` makes the last pack whole.

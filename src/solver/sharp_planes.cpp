@@ -259,7 +259,7 @@ void SharpInterface::place(const Faces& faces, Fields& fields,
     spread(fields, ring);
     exchange(fields);
   }
-  if (fields.phases[planes_of_[0]].face_states.stride == 0) return;
+  if (!fields.phases[planes_of_[0]].is_second_order()) return;
   const auto lend = [&](std::int32_t cell) {
     for (int k = 0; k < fields.n_phases(); ++k)
       if (borrows(k, cell)) lend_to_faces(fields, k, cell);
