@@ -52,7 +52,7 @@ class RawStorage {
   double* data_ = nullptr;
 };
 
-/// A list of fixed capacity with room for a pack beyond its end; nothing is initialised.
+/// A list of fixed capacity with room for a pack beyond its end. What lies there is 0 at first, or an entry of before.
 template <class T>
 class CompactList {
  public:

@@ -42,7 +42,7 @@ std::vector<std::size_t> capacities(const std::vector<std::vector<std::int32_t>>
 
 Reconstruction::Reconstruction(const Mpi& mpi, const Mesh& mesh, const Faces& faces, Fields& fields,
                                const std::vector<PhaseKernels>& kernels, const std::vector<Boundary>& boundaries)
-    : stencil_(make_stencil(mesh, faces, boundaries, fields.multiphase(), mpi)),
+    : stencil_(make_stencil(mesh, faces, boundaries, fields.multiphase() ? PhaseCount::several : PhaseCount::one, mpi)),
       kernels_(kernels),
       with_slopes_(mesh.n_owned),
       beside_gaps_(mesh.n_owned),

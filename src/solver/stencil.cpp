@@ -50,8 +50,9 @@ double own_weight(CellType type) {
 
 }  // namespace
 
-Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Boundary>& boundaries, bool several,
+Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Boundary>& boundaries, PhaseCount phases,
                      const Mpi& mpi) {
+  const bool several = phases == PhaseCount::several;
   Stencil stencil;
   stencil.size = faces.max_cell_faces;
   stencil.stride = faces.cell_stride;

@@ -28,8 +28,11 @@ struct Stencil {
   AlignedVector<std::int32_t> at_mirror;  ///< per cell: whether one of its faces is a mirror
 };
 
-/// `boundaries`: one for each of the mesh's groups. `several`: phases. Collective.
-Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Boundary>& boundaries, bool several,
+/// Of the scene.
+enum class PhaseCount { one, several };
+
+/// `boundaries`: one for each of the mesh's groups. Collective.
+Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Boundary>& boundaries, PhaseCount phases,
                      const Mpi& mpi);
 
 }  // namespace cobasis

@@ -29,8 +29,8 @@ struct HalfFilled {
   HalfFilled(CellType type, int n, double below, bool centred)
       : mesh(small_mesh(type, n)),
         faces(make_faces(mesh)),
-        stencil(
-            make_stencil(mesh, faces, std::vector<Boundary>(mesh.boundary_groups.size(), Inflow{}), true, one_rank())) {
+        stencil(make_stencil(mesh, faces, std::vector<Boundary>(mesh.boundary_groups.size(), Inflow{}),
+                             PhaseCount::several, one_rank())) {
     const std::size_t size = mesh.n_all() + pack_width;
     phase.alpha.assign(size, 0);
     phase.primitive.assign(Layout<G, Kind::fluid>::n_primitive, AlignedVector<double>(size, nothing));

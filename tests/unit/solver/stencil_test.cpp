@@ -51,7 +51,7 @@ std::array<Point, 4> gradients(const Mesh& mesh, const Faces& faces, const Stenc
 
 double largest_error(const Mesh& mesh, const std::vector<Boundary>& boundaries, const LinearField& field) {
   const Faces faces = make_faces(mesh);
-  const Stencil stencil = make_stencil(mesh, faces, boundaries, true, one_rank());
+  const Stencil stencil = make_stencil(mesh, faces, boundaries, PhaseCount::several, one_rank());
   double worst = 0;
   for (std::int32_t cell = 0; cell < mesh.n_owned; ++cell) {
     const auto found = gradients(mesh, faces, stencil, cell, field);
@@ -144,7 +144,8 @@ TEST_CASE("a neighbour in the stencil is the cell beyond the face, and the way t
     CAPTURE(box.name);
     const Mesh mesh = mesh_of(box);
     const Faces faces = make_faces(mesh);
-    const Stencil stencil = make_stencil(mesh, faces, boundaries_of(mesh, Transmissive{}), true, one_rank());
+    const Stencil stencil =
+        make_stencil(mesh, faces, boundaries_of(mesh, Transmissive{}), PhaseCount::several, one_rank());
     double away = 0, unclosed = 0;
     for (std::int32_t cell = 0; cell < mesh.n_owned; ++cell) {
       double flux_of_x = 0;  // the divergence of x is the dimension
@@ -171,7 +172,8 @@ TEST_CASE("gradients are averaged over neighbours only where cells have few face
   for (const MeshFile& box : boxes) {
     CAPTURE(box.name);
     const Mesh mesh = mesh_of(box);
-    const Stencil stencil = make_stencil(mesh, make_faces(mesh), boundaries_of(mesh, Transmissive{}), true, one_rank());
+    const Stencil stencil =
+        make_stencil(mesh, make_faces(mesh), boundaries_of(mesh, Transmissive{}), PhaseCount::several, one_rank());
     bool averages = false;
     for (std::int32_t cell = 0; cell < mesh.n_owned; ++cell) {
       double sum = 0;
