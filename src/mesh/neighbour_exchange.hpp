@@ -33,4 +33,32 @@ class NeighbourExchange {
   std::vector<MPI_Status> statuses_;
 };
 
+/// Halo cells learn numbers of their owners. visit(cell, with) calls with(number) for each of a cell: it is sent for
+/// an owned cell, overwritten for a halo cell. Which come next may depend on those before.
+template <class Visit>
+void send_cells(NeighbourExchange& exchange, const std::vector<Neighbour>& neighbours, const Visit& visit) {
+  for (std::size_t n = 0; n < neighbours.size(); ++n) {
+    std::vector<double>& out = exchange.outgoing(n);
+    out.clear();
+    for (const std::int32_t cell : neighbours[n].send)
+      visit(cell, [&](const auto& number) { out.push_back(static_cast<double>(number)); });
+  }
+  exchange.start();
+}
+template <class Visit>
+void receive_cells(NeighbourExchange& exchange, const std::vector<Neighbour>& neighbours, const Visit& visit) {
+  exchange.finish();
+  for (std::size_t n = 0; n < neighbours.size(); ++n) {
+    const double* in = exchange.incoming(n).data();
+    for (std::int32_t i = 0; i < neighbours[n].receive_count; ++i)
+      visit(neighbours[n].receive_first + i,
+            [&]<class Number>(Number& number) { number = static_cast<Number>(*in++); });
+  }
+}
+template <class Visit>
+void exchange_cells(NeighbourExchange& exchange, const std::vector<Neighbour>& neighbours, const Visit& visit) {
+  send_cells(exchange, neighbours, visit);
+  receive_cells(exchange, neighbours, visit);
+}
+
 }  // namespace cobasis

@@ -39,18 +39,7 @@ void Caution::spread(const Mesh& mesh, std::int64_t step, int failed) {
 
 /// Halo cells are treated as their owners say.
 void Caution::tell_halo(const Mesh& mesh) {
-  for (std::size_t i = 0; i < mesh.neighbours.size(); ++i) {
-    std::vector<double>& out = exchange_.outgoing(i);
-    out.clear();
-    for (const std::int32_t cell : mesh.neighbours[i].send) out.push_back(static_cast<double>(until_[cell]));
-  }
-  exchange_.start();
-  exchange_.finish();
-  for (std::size_t i = 0; i < mesh.neighbours.size(); ++i) {
-    const double* in = exchange_.incoming(i).data();
-    for (std::int32_t j = 0; j < mesh.neighbours[i].receive_count; ++j)
-      until_[mesh.neighbours[i].receive_first + j] = static_cast<std::int64_t>(*in++);
-  }
+  exchange_cells(exchange_, mesh.neighbours, [&](std::int32_t cell, const auto& with) { with(until_[cell]); });
 }
 
 void Caution::tell(Fields& fields, std::int64_t step) {

@@ -50,19 +50,9 @@ COBASIS_KERNEL void Fields::complete(const CellList& cells, std::int32_t n) {
 }
 
 void Fields::share_alpha(const Mesh& mesh, NeighbourExchange& exchange) {
-  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
-    std::vector<double>& out = exchange.outgoing(n);
-    out.clear();
-    for (const std::int32_t cell : mesh.neighbours[n].send)
-      for (const Phase& phase : phases) out.push_back(phase.alpha[cell]);
-  }
-  exchange.start();
-  exchange.finish();
-  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
-    const double* in = exchange.incoming(n).data();
-    for (std::int32_t i = 0; i < mesh.neighbours[n].receive_count; ++i)
-      for (Phase& phase : phases) phase.alpha[mesh.neighbours[n].receive_first + i] = *in++;
-  }
+  exchange_cells(exchange, mesh.neighbours, [&](std::int32_t cell, const auto& with) {
+    for (Phase& phase : phases) with(phase.alpha[cell]);
+  });
 }
 
 }  // namespace cobasis

@@ -159,31 +159,6 @@ void Reconstruction::find_slopes(Group& group, Fields& fields, const Faces& face
   }
 }
 
-void Reconstruction::exchange_slopes(const Mesh& mesh, Fields& fields, bool send) {
-  if (!send) slope_exchange_->finish();
-  for (std::size_t n = 0; n < mesh.neighbours.size(); ++n) {
-    const Neighbour& neighbour = mesh.neighbours[n];
-    const auto visit_slopes = [&](std::int32_t cell, const auto& visit) {
-      for (std::size_t k = 0; k < fields.phases.size(); ++k) {
-        Phase& phase = fields.phases[k];
-        if (phase.is_void || (fields.multiphase() && !(phase.alpha[cell] > 0))) continue;
-        visit(phase.slopes_known[cell]);
-        for (int c = 0; c < kernels_[k].n_slopes; ++c) visit(phase.slopes.component(c)[cell]);
-      }
-    };
-    if (send) {
-      std::vector<double>& out = slope_exchange_->outgoing(n);
-      out.clear();
-      for (const std::int32_t cell : neighbour.send) visit_slopes(cell, [&](double value) { out.push_back(value); });
-    } else {
-      const double* in = slope_exchange_->incoming(n).data();
-      for (std::int32_t i = 0; i < neighbour.receive_count; ++i)
-        visit_slopes(neighbour.receive_first + i, [&](double& value) { value = *in++; });
-    }
-  }
-  if (send) slope_exchange_->start();
-}
-
 void Reconstruction::run(Group& group, Fields& fields, const Faces& faces, const ReconstructionOptions& options) {
   for (int k = 0; k < fields.n_phases(); ++k) {
     Phase& phase = fields.phases[k];
@@ -226,10 +201,18 @@ void Reconstruction::run_inside(Fields& fields, const Faces& faces, const Recons
 void Reconstruction::run_beside_halo(const Mesh& mesh, Fields& fields, const Faces& faces,
                                      const ReconstructionOptions& options) {
   if (stencil_.averages) {
+    const auto visit = [&](std::int32_t cell, const auto& with) {
+      for (std::size_t k = 0; k < fields.phases.size(); ++k) {
+        Phase& phase = fields.phases[k];
+        if (phase.is_void || (fields.multiphase() && !(phase.alpha[cell] > 0))) continue;
+        with(phase.slopes_known[cell]);
+        for (int c = 0; c < kernels_[k].n_slopes; ++c) with(phase.slopes.component(c)[cell]);
+      }
+    };
     find_slopes(beside_halo_, fields, faces);
-    exchange_slopes(mesh, fields, true);
+    send_cells(*slope_exchange_, mesh.neighbours, visit);
     run(inside_, fields, faces, options);
-    exchange_slopes(mesh, fields, false);
+    receive_cells(*slope_exchange_, mesh.neighbours, visit);
   }
   run(beside_halo_, fields, faces, options);
   for (std::size_t k = 0; k < fields.phases.size(); ++k) {

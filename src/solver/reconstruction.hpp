@@ -35,7 +35,6 @@ class Reconstruction {
   };
   void select(const Group& group, const Fields& fields, int k, int mirrors);
   void find_slopes(Group& group, Fields& fields, const Faces& faces);
-  void exchange_slopes(const Mesh& mesh, Fields& fields, bool send);
   void forget_slopes(Fields& fields);
   void run(Group& group, Fields& fields, const Faces& faces, const ReconstructionOptions& options);
 

@@ -86,25 +86,10 @@ SharpInterface::SharpInterface(const Mpi& mpi, const Mesh& mesh, const Faces& fa
 }
 
 void SharpInterface::exchange_blends() {
-  if (mesh_.neighbours.empty()) return;
-  const auto visit_blends = [&](std::int32_t cell, const auto& visit) {
+  exchange_cells(exchange_, mesh_.neighbours, [&](std::int32_t cell, const auto& with) {
     for (const int k : planes_of_)
-      if (valid(k, cell) && cells_[k][cell].ring == -1) visit(cells_[k][cell].blend);
-  };
-  for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
-    std::vector<double>& out = exchange_.outgoing(i);
-    out.clear();
-    for (const std::int32_t cell : mesh_.neighbours[i].send)
-      visit_blends(cell, [&](double blend) { out.push_back(blend); });
-  }
-  exchange_.start();
-  exchange_.finish();
-  for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
-    const double* in = exchange_.incoming(i).data();
-    const Neighbour& neighbour = mesh_.neighbours[i];
-    for (std::int32_t j = 0; j < neighbour.receive_count; ++j)
-      visit_blends(neighbour.receive_first + j, [&](double& blend) { blend = *in++; });
-  }
+      if (valid(k, cell) && cells_[k][cell].ring == -1) with(cells_[k][cell].blend);
+  });
 }
 
 bool SharpInterface::knows_plane(std::int32_t cell) const {

@@ -159,34 +159,18 @@ Point SharpInterface::fitted_normal(int k, std::int32_t cell) const {
 
 /// Halo cells learn what their owners have gathered so far.
 void SharpInterface::exchange_moments() {
-  if (mesh_.neighbours.empty()) return;
-  const auto numbers = [](auto& m, const auto& visit) {
-    for (auto* number :
-         {&m.w, &m.r.x, &m.r.y, &m.r.z, &m.n.x, &m.n.y, &m.n.z, &m.xx, &m.xy, &m.xz, &m.yy, &m.yz, &m.zz})
-      visit(*number);
-  };
-  for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
-    std::vector<double>& out = exchange_.outgoing(i);
-    out.clear();
-    for (const std::int32_t cell : mesh_.neighbours[i].send) {
-      Moments m = moments_of(cell);
-      out.push_back(m.w > 0);
-      if (m.w > 0) numbers(m, [&](double number) { out.push_back(number); });
-    }
-  }
-  exchange_.start();
-  exchange_.finish();
-  for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
-    const double* in = exchange_.incoming(i).data();
-    const Neighbour& neighbour = mesh_.neighbours[i];
-    for (std::int32_t cell = neighbour.receive_first; cell < neighbour.receive_first + neighbour.receive_count;
-         ++cell) {
-      const bool known = *in++ != 0;
-      if (!known && moments_at_[cell] < 0) continue;
-      Moments& m = moments_for(cell) = {};
-      if (known) numbers(m, [&](double& number) { number = *in++; });
-    }
-  }
+  exchange_cells(exchange_, mesh_.neighbours, [&](std::int32_t cell, const auto& with) {
+    bool known = moments_of(cell).w > 0;
+    with(known);
+    if (!known && (cell < mesh_.n_owned || moments_at_[cell] < 0)) return;
+    Moments& m = moments_for(cell);
+    if (!known)
+      m = {};
+    else
+      for (double* number :
+           {&m.w, &m.r.x, &m.r.y, &m.r.z, &m.n.x, &m.n.y, &m.n.z, &m.xx, &m.xy, &m.xz, &m.yy, &m.yz, &m.zz})
+        with(*number);
+  });
 }
 
 }  // namespace cobasis

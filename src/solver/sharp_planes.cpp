@@ -145,53 +145,30 @@ void SharpInterface::lend_to_faces(Fields& fields, int k, std::int32_t cell) con
 
 /// The planes of cells that other ranks have as halo, and the states that phases have borrowed there.
 void SharpInterface::exchange(Fields& fields) {
-  const auto for_each_borrowed = [&](std::int32_t cell, const auto& visit) {
+  exchange_cells(exchange_, mesh_.neighbours, [&](std::int32_t cell, const auto& with) {
+    for (int k = 0; k < fields.n_phases(); ++k) {
+      with(health_[k][cell]);
+      bool borrowed = borrows(k, cell);
+      with(borrowed);
+      if (cell >= mesh_.n_owned) borrowed_[k][cell] = borrowed ? stage_ : -1;
+    }
+    for (const int k : planes_of_) {
+      Cell& c = cells_[k][cell];
+      int ring = valid(k, cell) ? c.ring : 0;
+      with(ring);
+      if (ring == 0) continue;
+      c.ring = ring, c.step = step_;
+      for (double* number : {&c.plane.n.x, &c.plane.n.y, &c.plane.n.z, &c.plane.d, &c.cut.centroid.x, &c.cut.centroid.y,
+                             &c.cut.centroid.z, &c.cut.area, &c.speed})
+        with(*number);
+    }
     for (int k = 0; k < fields.n_phases(); ++k) {
       if (!borrows(k, cell)) continue;
       Phase& phase = fields.phases[k];
-      for (auto& component : phase.primitive) visit(component[cell]);
-      for (int c = fields.first_cobasis(); c < phase.n_conserved(); ++c) visit(phase.conserved[c][cell]);
+      for (auto& component : phase.primitive) with(component[cell]);
+      for (int c = fields.first_cobasis(); c < phase.n_conserved(); ++c) with(phase.conserved[c][cell]);
     }
-  };
-  for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
-    std::vector<double>& out = exchange_.outgoing(i);
-    out.clear();
-    for (const std::int32_t cell : mesh_.neighbours[i].send) {
-      for (int k = 0; k < fields.n_phases(); ++k) {
-        out.push_back(health_[k][cell]);
-        out.push_back(borrows(k, cell));
-      }
-      for (const int k : planes_of_) {
-        const Cell& c = cells_[k][cell];
-        out.push_back(valid(k, cell) ? c.ring : 0);
-        if (!valid(k, cell)) continue;
-        for (const double value : {c.plane.n.x, c.plane.n.y, c.plane.n.z, c.plane.d, c.cut.centroid.x, c.cut.centroid.y,
-                                   c.cut.centroid.z, c.cut.area, c.speed})
-          out.push_back(value);
-      }
-      for_each_borrowed(cell, [&](double value) { out.push_back(value); });
-    }
-  }
-  exchange_.start();
-  exchange_.finish();
-  for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
-    const double* in = exchange_.incoming(i).data();
-    const Neighbour& neighbour = mesh_.neighbours[i];
-    for (std::int32_t cell = neighbour.receive_first; cell < neighbour.receive_first + neighbour.receive_count;
-         ++cell) {
-      for (int k = 0; k < fields.n_phases(); ++k) {
-        health_[k][cell] = static_cast<std::int8_t>(*in++);
-        borrowed_[k][cell] = *in++ != 0 ? stage_ : -1;
-      }
-      for (const int k : planes_of_) {
-        const int ring = static_cast<int>(*in++);
-        if (ring == 0) continue;
-        cells_[k][cell] = {{{in[0], in[1], in[2]}, in[3]}, {in[7], {in[4], in[5], in[6]}}, in[8], 1, ring, step_};
-        in += 9;
-      }
-      for_each_borrowed(cell, [&](double& value) { value = *in++; });
-    }
-  }
+  });
   ++stage_;
 }
 
@@ -299,28 +276,13 @@ void SharpInterface::find_centres(Fields& fields) {
 }
 
 void SharpInterface::exchange_centres(Fields& fields) {
-  const auto visit = [&](std::int32_t cell, const auto& with) {
+  exchange_cells(exchange_, mesh_.neighbours, [&](std::int32_t cell, const auto& with) {
     if (fields.pure[cell] >= 0) return;
+    if (cell >= mesh_.n_owned) centred_.push_back(cell);
     for (Phase& phase : fields.phases)
       if (phase.centre.stride != 0)
         for (int d = 0; d < fields.dimension; ++d) with(phase.centre.component(d)[cell]);
-  };
-  for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
-    std::vector<double>& out = exchange_.outgoing(i);
-    out.clear();
-    for (const std::int32_t cell : mesh_.neighbours[i].send) visit(cell, [&](double value) { out.push_back(value); });
-  }
-  exchange_.start();
-  exchange_.finish();
-  for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
-    const double* in = exchange_.incoming(i).data();
-    const Neighbour& neighbour = mesh_.neighbours[i];
-    for (std::int32_t cell = neighbour.receive_first; cell < neighbour.receive_first + neighbour.receive_count;
-         ++cell) {
-      if (fields.pure[cell] < 0) centred_.push_back(cell);
-      visit(cell, [&](double& value) { value = *in++; });
-    }
-  }
+  });
 }
 
 /// The planes move with the contact of the phases that they divide.

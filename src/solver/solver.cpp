@@ -181,37 +181,24 @@ void Solver::sweep(Part part) {
   }
 }
 
+/// Calls with(number) for what neighbours must know of a cell.
+template <class With>
+void Solver::visit_state(std::int32_t cell, const With& with) {
+  if (fields_.multiphase())
+    for (Phase& phase : fields_.phases) with(phase.alpha[cell]);
+  for (Phase& phase : fields_.phases)
+    if (!fields_.multiphase() || phase.alpha[cell] > 0)
+      for (auto& component : phase.conserved) with(component[cell]);
+}
+
 void Solver::send_halo() {
-  for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
-    std::vector<double>& out = halo_->outgoing(i);
-    out.clear();
-    for (const std::int32_t cell : mesh_.neighbours[i].send) {
-      if (fields_.multiphase())
-        for (const Phase& phase : fields_.phases) out.push_back(phase.alpha[cell]);
-      for (const Phase& phase : fields_.phases)
-        if (!fields_.multiphase() || phase.alpha[cell] > 0)
-          for (const auto& component : phase.conserved) out.push_back(component[cell]);
-    }
-  }
   if (options_.before_halo_send) options_.before_halo_send();
-  halo_->start();
+  send_cells(*halo_, mesh_.neighbours, [&](std::int32_t cell, const auto& with) { visit_state(cell, with); });
 }
 
 void Solver::receive_halo() {
-  halo_->finish();
+  receive_cells(*halo_, mesh_.neighbours, [&](std::int32_t cell, const auto& with) { visit_state(cell, with); });
   if (mesh_.neighbours.empty()) return;
-  for (std::size_t i = 0; i < mesh_.neighbours.size(); ++i) {
-    const Neighbour& neighbour = mesh_.neighbours[i];
-    const double* in = halo_->incoming(i).data();
-    for (std::int32_t j = 0; j < neighbour.receive_count; ++j) {
-      const std::int32_t cell = neighbour.receive_first + j;
-      if (fields_.multiphase())
-        for (Phase& phase : fields_.phases) phase.alpha[cell] = *in++;
-      for (Phase& phase : fields_.phases)
-        if (!fields_.multiphase() || phase.alpha[cell] > 0)
-          for (auto& component : phase.conserved) component[cell] = *in++;
-    }
-  }
   if (fields_.multiphase()) {
     scratch_cells_.clear();
     for (std::int32_t cell = mesh_.n_owned; cell < mesh_.n_cells(); ++cell) scratch_cells_.push(cell);

@@ -111,6 +111,8 @@ class Solver {
   double stable_step();
   void begin_sweeps();
   void sweep(Part part);
+  template <class With>
+  void visit_state(std::int32_t cell, const With& with);
   void send_halo();
   void receive_halo();
   void list_cells();
