@@ -202,45 +202,17 @@ void SharpInterface::wet_face(const Faces& faces, Fields& fields, std::int32_t f
     wetted(k) = 0;
   }
   if (sum <= 0) return as_the_cells_are();  // nothing is left
-  find_wetted_centroids(fields, face, from_left, dt);
+  if (knows_centres(fields)) find_wetted_centroids(fields, face, from_left >= 0.5 ? 0 : 1, dt);
   for (Phase& phase : fields.phases) {
     if (sum != 1) phase.wetted[0][face] /= sum;
     phase.wetted[1][face] = phase.wetted[0][face];
   }
 }
 
-/// Where on the face the phases are at the middle of the step.
-void SharpInterface::find_wetted_centroids(Fields& fields, std::int32_t face, double from_left, double dt) {
-  Point rest{0, 0, 0};
-  double of_rest = 1;
-  const auto put = [&](Phase& phase, const Point& at) {
-    if (phase.centre.stride == 0) return;
-    const double x[] = {at.x, at.y, at.z};
-    for (int d = 0; d < fields.dimension; ++d) phase.wetted_at[d][face] = x[d];
-  };
-  for (const int k : planes_of_) {
-    const int side = from_left >= 0.5 ? 0 : 1;
-    const std::int32_t cell = side == 0 ? mesh_.left[face] : mesh_.right[face];
-    Point at{0, 0, 0};
-    const double share = fields.phases[k].wetted[0][face];
-    if (valid(k, cell) && share > 0 && share < 1) {
-      const Cell& c = cells_[k][cell];
-      at = wetted_centroid(outlines_[face], outlines_.center(face, side), {c.plane.n, c.plane.d + 0.5 * c.speed * dt});
-    }
-    put(fields.phases[k], at);
-    rest = rest - share * at;
-    of_rest -= share;
-  }
-  if (rest_ >= 0 && !fields.phases[rest_].is_void)
-    put(fields.phases[rest_], of_rest > 0 ? 1 / of_rest * rest : Point{});
-}
-
 void SharpInterface::wet(const Faces& faces, Fields& fields, double dt) {
   for (const std::int32_t f : near_faces_) {
     fields.near[f] = 0;
-    for (Phase& phase : fields.phases)
-      if (phase.centre.stride != 0)
-        for (int d = 0; d < fields.dimension; ++d) phase.wetted_at[d][f] = 0;
+    if (knows_centres(fields)) forget_wetted_centroids(fields, f);
   }
   near_faces_.clear();
   const auto consider = [&](std::int32_t f) {

@@ -72,8 +72,13 @@ class SharpInterface {
   Point fitted_normal(int k, std::int32_t cell) const;
   void exchange(Fields& fields);
   void exchange_blends();
+  /// Whether what lies where in a cell counts: at second order.
+  bool knows_centres(const Fields& fields) const { return fields.phases[planes_of_[0]].centre.stride != 0; }
+  template <class Part, class Place>
+  void put_centroids(Fields& fields, const Part& part_of, const Place& place) const;
   void find_centres(Fields& fields);
-  void exchange_centres(Fields& fields);
+  void find_wetted_centroids(Fields& fields, std::int32_t face, int side, double dt) const;
+  void forget_wetted_centroids(Fields& fields, std::int32_t face) const;
   void find_speeds(Fields& fields);
   void seed(const Faces& faces, Fields& fields);
   void spread(Fields& fields, int ring);
@@ -95,7 +100,6 @@ class SharpInterface {
   double side_fraction(const Fields& fields, int k, std::int32_t face, int side, double dt) const;
   void find_health(Fields& fields);
   bool has_planes(const Fields& fields, std::int32_t cell) const;
-  void find_wetted_centroids(Fields& fields, std::int32_t face, double from_left, double dt);
   void wet_face(const Faces& faces, Fields& fields, std::int32_t face, double dt);
   void contacts_of(const Faces& faces, const Fields& fields, std::int32_t cell);
   template <class Visit>

@@ -221,10 +221,7 @@ void SharpInterface::place(const Faces& faces, Fields& fields,
     }
   }
   settled_ = true;
-  if (fields.phases[planes_of_[0]].centre.stride != 0) {
-    find_centres(fields);
-    exchange_centres(fields);
-  }
+  if (knows_centres(fields)) find_centres(fields);
   find_speeds(fields);
   for (const auto* cells : {&cut_cells_, &mixed_cells_})
     for (const std::int32_t cell : *cells) borrow_missing(fields, cell);
@@ -246,43 +243,6 @@ void SharpInterface::place(const Faces& faces, Fields& fields,
   for (const std::int32_t cell : following_)
     if (cell < mesh_.n_owned) lend(cell);
   for (std::int32_t cell = mesh_.n_owned; cell < mesh_.n_cells(); ++cell) lend(cell);
-}
-
-/// Where the phases lie in cut cells.
-void SharpInterface::find_centres(Fields& fields) {
-  const auto put = [&](Phase& phase, std::int32_t cell, const Point& at) {
-    if (phase.centre.stride == 0) return;
-    const double x[] = {at.x, at.y, at.z};
-    for (int d = 0; d < fields.dimension; ++d) phase.centre.component(d)[cell] = x[d];
-  };
-  for (const std::int32_t cell : centred_)
-    for (Phase& phase : fields.phases) put(phase, cell, {0, 0, 0});
-  centred_.clear();
-  for (const auto* cells : {&cut_cells_, &mixed_cells_})
-    for (const std::int32_t cell : *cells) {
-      Point rest{0, 0, 0};
-      double of_rest = 1;
-      for (const int k : planes_of_) {
-        if (!is_cut(fields, k, cell)) continue;
-        const Point at = centroid_below(find_corners(cell), cells_[k][cell].plane);
-        put(fields.phases[k], cell, at);
-        const double alpha = fields.phases[k].alpha[cell];
-        rest = rest - alpha * at, of_rest -= alpha;
-      }
-      if (rest_ >= 0 && !fields.phases[rest_].is_void)
-        put(fields.phases[rest_], cell, of_rest > 0 ? 1 / of_rest * rest : Point{});
-      centred_.push_back(cell);
-    }
-}
-
-void SharpInterface::exchange_centres(Fields& fields) {
-  exchange_cells(exchange_, mesh_.neighbours, [&](std::int32_t cell, const auto& with) {
-    if (fields.pure[cell] >= 0) return;
-    if (cell >= mesh_.n_owned) centred_.push_back(cell);
-    for (Phase& phase : fields.phases)
-      if (phase.centre.stride != 0)
-        for (int d = 0; d < fields.dimension; ++d) with(phase.centre.component(d)[cell]);
-  });
 }
 
 /// The planes move with the contact of the phases that they divide.
