@@ -37,6 +37,9 @@ inline constexpr ExchangeThresholds diffuse_exchange{1e-9, 1e-3};
 /// Where they are planes in cells, a small volume is the tip of a phase that lies in the neighbour.
 inline constexpr ExchangeThresholds sharp_exchange{1e-8, 3e-2};
 
+/// What is less of a cell is dust anywhere.
+inline constexpr double dust_threshold = 1e-11;
+
 class VolumeExchange {
  public:
   VolumeExchange(const Mpi& mpi, const Mesh& mesh, const Fields& fields,
@@ -105,6 +108,9 @@ class VolumeExchange {
   Content content_of(const Fields& fields, int k, std::int32_t cell) const;
   Content part_of(const Fields& fields, int k, std::int32_t cell, double volume) const;
   double promised(std::int32_t cell, int k) const;
+  /// Whether so much of what is available may be given by a cell of volume V: what stays is no remainder of round-off.
+  static bool has(double available, double given, double V) { return available >= given + least_rest * V; }
+  static constexpr double least_rest = 1e-6;  ///< volume fraction
 
   ExchangeThresholds thresholds_;
   double least_to_give_;
