@@ -18,11 +18,15 @@ std::vector<Boundary> resolve_boundaries(const Setup& setup, const Mesh& mesh);
 /// group's faces say otherwise. Collective.
 void check_axis(const Setup& setup, const Mesh& mesh, const std::vector<Boundary>& boundaries, const Mpi& mpi);
 
+/// Whether what is seen of a scene is mirrored there: interfaces and bodies go on beyond.
+inline bool is_plane_of_symmetry(const Boundary& boundary) {
+  return std::holds_alternative<Symmetry>(boundary) || std::holds_alternative<AxisOfSymmetry>(boundary);
+}
+
 /// Whether the state beyond is the mirror image of the cell's own.
 inline bool is_mirror_image(const Boundary& boundary) {
   const auto* wall = std::get_if<Wall>(&boundary);
-  return (wall && !wall->velocity) || std::holds_alternative<Symmetry>(boundary) ||
-         std::holds_alternative<AxisOfSymmetry>(boundary);
+  return (wall && !wall->velocity) || is_plane_of_symmetry(boundary);
 }
 
 /// Whether the faces read Faces::prescribed.

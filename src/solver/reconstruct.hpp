@@ -121,27 +121,63 @@ struct Neighbourhood {
   Indices<Real> neighbour(int j) const { return lookup<Real>(&stencil.cell[entry(j)], at); }
 
   State state(const Indices<Real>& cell) const { return mean_state<G, K, Real>(phase, cell); }
-  /// Turns v into its mirror image where face j is a mirror.
-  template <class Component>
-  void reflect(int j, const Component& v) const {
+  std::array<Real, D> normal_of(int j) const {
     Indices<Real> face = lookup<Real>(&faces.cell_faces[entry(j)], at);
     for (auto& f : face) f >>= 1;
     const AlignedVector<double>* const normals[] = {&faces.nx, &faces.ny, &faces.nz};
-    const Real twice = of_entry(stencil.mirror, j);
     std::array<Real, D> normal;
+    for (int d = 0; d < D; ++d) normal[d] = gather<Real>(normals[d]->data(), face);
+    return normal;
+  }
+  /// Turns v into its mirror image where face j is a mirror.
+  template <class Component>
+  void reflect(int j, const Component& v) const {
+    const std::array<Real, D> normal = normal_of(j);
+    const Real twice = of_entry(stencil.mirror, j);
     Real along(0.0);
-    for (int d = 0; d < D; ++d) {
-      normal[d] = gather<Real>(normals[d]->data(), face);
-      along = along + v(d) * normal[d];
-    }
+    for (int d = 0; d < D; ++d) along = along + v(d) * normal[d];
     for (int d = 0; d < D; ++d) v(d) = v(d) - twice * along * normal[d];
   }
-  /// Behind face j: another cell, or the mirror image of this one. The cobasis has no image: its vectors belong to the
-  /// body's own coordinates, which a mirror would turn too; it is taken as even.
+  /// The vectors of e belong to the body's own coordinates, which a mirror turns too. With e H, H the mirror of space,
+  /// Q e H is a cobasis of the image for any rotation or mirror Q; Q mirrors the body along this unit vector. At a
+  /// plane of symmetry of bodies whose coordinates are those of space that is the plane's normal. Elsewhere nobody
+  /// knows how they lie: with the image e n of the normal, e stays as it is where there is no shear.
+  std::array<Real, D> body_normal(int j, const std::array<Real, D>& n, const State& w) const {
+    std::array<Real, D> image;
+    Real square(0.0), aligned(0.0);
+    for (int beta = 0; beta < D; ++beta) {
+      image[beta] = Real(0.0);
+      for (int d = 0; d < D; ++d) image[beta] = image[beta] + w[P::e + beta * D + d] * n[d];
+      square = square + image[beta] * image[beta];
+      aligned = aligned + image[beta] * n[beta];
+    }
+    const Real length = square_root(square);
+    const Mask<Real> known = of_entry(stencil.body_mirror, j) * aligned > 0.5 * length;
+    const Mask<Real> mirrored = of_entry(stencil.mirror, j) > Real(0.0);
+    for (int d = 0; d < D; ++d) image[d] = select(mirrored && !known, image[d] / length, n[d]);
+    return image;
+  }
+  /// Turns e(beta, d), of a state or its slopes, into that of the mirror image where face j is a mirror.
+  template <class Component>
+  void reflect_cobasis(int j, const std::array<Real, D>& body_normal, const Component& e) const {
+    const Real twice = of_entry(stencil.mirror, j);
+    for (int beta = 0; beta < D; ++beta) reflect(j, [&](int d) -> Real& { return e(beta, d); });
+    for (int d = 0; d < D; ++d) {
+      Real along(0.0);
+      for (int beta = 0; beta < D; ++beta) along = along + e(beta, d) * body_normal[beta];
+      for (int beta = 0; beta < D; ++beta) e(beta, d) = e(beta, d) - twice * along * body_normal[beta];
+    }
+  }
+  /// Behind face j: another cell, or the mirror image of this one.
   /// Where that does not hold the phase, `w`, the cell's own state.
   State beyond(int j, const State& w) const {
     State other = state(neighbour(j));
-    if constexpr (A != Around::phase) reflect(j, [&](int d) -> Real& { return other[P::u + d]; });
+    if constexpr (A != Around::phase) {
+      reflect(j, [&](int d) -> Real& { return other[P::u + d]; });
+      if constexpr (K == Kind::solid)
+        reflect_cobasis(j, body_normal(j, normal_of(j), w),
+                        [&](int beta, int d) -> Real& { return other[P::e + beta * D + d]; });
+    }
     if constexpr (A == Around::gaps) {
       const Mask<Real> there = holds(j);
       for (int v = 0; v < P::size; ++v) other[v] = select(there, other[v], w[v]);
@@ -217,10 +253,15 @@ struct Neighbourhood {
     return r;
   }
 
-  /// The gradients of the mirror image.
-  void mirror(typename P::template Gradients<Real>& gradient, int j) const {
+  /// The gradients of the mirror image; w: the cell's own state.
+  void mirror(typename P::template Gradients<Real>& gradient, int j, const State& w) const {
     for (auto& of_quantity : gradient) reflect(j, [&](int d) -> Real& { return of_quantity[d]; });
-    for (int along = 0; along < D; ++along) reflect(j, [&](int d) -> Real& { return gradient[P::u + d][along]; });
+    for (int along = 0; along < D; ++along) {
+      reflect(j, [&](int d) -> Real& { return gradient[P::u + d][along]; });
+      if constexpr (K == Kind::solid)
+        reflect_cobasis(j, body_normal(j, normal_of(j), w),
+                        [&](int beta, int d) -> Real& { return gradient[P::e + beta * D + d][along]; });
+    }
   }
 };
 
@@ -267,7 +308,7 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
         typename P::template Gradients<Real> other;
         for (int v = 0; v < P::size; ++v)
           for (int d = 0; d < D; ++d) other[v][d] = gather<Real>(phase.slopes.component(v * D + d), neighbour);
-        if constexpr (A != Around::phase) here.mirror(other, j);
+        if constexpr (A != Around::phase) here.mirror(other, j, w);
         for (int v = 0; v < P::size; ++v)
           for (int d = 0; d < D; ++d)
             gradient[v][d] = gradient[v][d] + select(known, share * (other[v][d] - own[v][d]), Real(0.0));

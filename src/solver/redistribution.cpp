@@ -10,7 +10,7 @@ namespace cobasis {
 namespace {
 
 constexpr double least_donor = 0.03;    ///< what is small itself has no state to share
-constexpr double small_fraction = 0.5;  ///< below this volume fraction a phase is averaged
+constexpr double small_fraction = 0.7;  ///< below this volume fraction a phase is averaged
 /// A negative volume may take away so much of the neighbour's share that their mean means nothing. The sum of both must
 /// exceed this part of the sum of magnitudes: then the mean leaves the range of the two states by half their difference
 /// at most.
@@ -362,7 +362,10 @@ void Redistribution::settle(const Mesh& mesh, const Faces& faces, Fields& fields
   for (Pair& pair : pairs_) {
     if (pair.donor >= mesh.n_owned) continue;
     lend(mesh, fields, pair, target);
-    if (target < 1 && fields.phases[pair.k].alpha[pair.cell] > 0) pair.step = step_beside(mesh, faces, fields, pair);
+    const auto& alpha = fields.phases[pair.k].alpha;
+    // slopes of a donor that is small itself depend on the cell, which would get its own errors back
+    if (target < 1 && alpha[pair.cell] > 0 && !(alpha[pair.donor] < small_fraction))
+      pair.step = step_beside(mesh, faces, fields, pair);
   }
   average(mesh, faces, fields);
   for (const auto& [cell, k] : changed_) take(mesh, faces, fields, k, cell);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh/geometry.hpp"
+#include "solver/boundary.hpp"
 #include "solver/interfaces.hpp"
 
 namespace cobasis {
@@ -34,6 +35,7 @@ SharpInterface::SharpInterface(const Mpi& mpi, const Mesh& mesh, const Faces& fa
       corners_at_(mesh.n_owned, -1),
       face_radius_(mesh.n_faces()),
       is_transmissive_(mesh.n_boundary_faces),
+      is_symmetry_(mesh.n_boundary_faces),
       exchange_(mpi, mesh.neighbours, capacities(mesh, numbers_per_cell(fields)), 16),
       shares_planes_(setup.scheme.interface == InterfaceTreatment::sharp) {
   const int n = fields.n_phases();
@@ -81,8 +83,10 @@ SharpInterface::SharpInterface(const Mpi& mpi, const Mesh& mesh, const Faces& fa
     for (int i = 0; i < outline.size; ++i) face_radius_[f] = std::max(face_radius_[f], length(outline.corner[i]));
   }
   for (std::size_t i = 0; i < boundaries.size(); ++i)
-    for (std::int32_t f = mesh.boundary_groups[i].first; f < mesh.boundary_groups[i].last; ++f)
+    for (std::int32_t f = mesh.boundary_groups[i].first; f < mesh.boundary_groups[i].last; ++f) {
       is_transmissive_[f - mesh.first_boundary_face()] = !std::holds_alternative<Inflow>(boundaries[i]);
+      is_symmetry_[f - mesh.first_boundary_face()] = is_plane_of_symmetry(boundaries[i]);
+    }
 }
 
 void SharpInterface::exchange_blends() {

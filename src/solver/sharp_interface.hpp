@@ -53,10 +53,14 @@ class SharpInterface {
     Point r{0, 0, 0}, n{0, 0, 0};
     double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
     void add(const Moments& other, const Point& delta);  ///< `delta`: to the other cell's centroid
+    Moments mirrored(const Point& m) const;
   };
   bool is_cut(const Fields& fields, int k, std::int32_t cell) const;
   bool knows_plane(std::int32_t cell) const;
   bool valid(int k, std::int32_t cell) const { return cells_[k][cell].step == step_; }
+  bool is_symmetry(std::int32_t face) const {
+    return face >= mesh_.first_boundary_face() && is_symmetry_[face - mesh_.first_boundary_face()];
+  }
   Point gradient(const Faces& faces, const Fields& fields, int k, std::int32_t cell) const;
   const CellCorners& find_corners(std::int32_t cell);
   void put_plane(const Fields& fields, int k, std::int32_t cell, const Point& n);
@@ -116,7 +120,7 @@ class SharpInterface {
   std::vector<std::int32_t> corners_at_;                    // where in corners_; -1: not yet
   std::vector<std::int32_t> halo_face_begin_, halo_faces_;  // faces of halo cells: 2 face + side
   std::vector<double> face_radius_;                         // largest distance of a corner from the centroid [m]
-  std::vector<bool> is_transmissive_;                       // boundary faces
+  std::vector<bool> is_transmissive_, is_symmetry_;         // boundary faces
 
   std::vector<std::int32_t> cut_cells_, mixed_cells_;  // owned cells of several phases, with planes and without
   std::vector<std::int32_t> frontier_, next_, near_faces_, centred_;

@@ -50,6 +50,17 @@ int SharpInterface::hops_of(CellType type) {
   }
 }
 
+/// Of what lies beyond a plane of symmetry with unit normal m, about the mirror image of the centroid.
+SharpInterface::Moments SharpInterface::Moments::mirrored(const Point& m) const {
+  const auto image = [&](const Point& a) { return a - 2 * dot(a, m) * m; };
+  const Point x = image({1, 0, 0}), y = image({0, 1, 0}), z = image({0, 0, 1});
+  const auto of = [&](const Point& a, const Point& b) {
+    return a.x * (xx * b.x + xy * b.y + xz * b.z) + a.y * (xy * b.x + yy * b.y + yz * b.z) +
+           a.z * (xz * b.x + yz * b.y + zz * b.z);
+  };
+  return {w, image(r), image(n), of(x, x), of(x, y), of(x, z), of(y, y), of(y, z), of(z, z)};
+}
+
 void SharpInterface::Moments::add(const Moments& other, const Point& d) {
   const Point &o = other.r, s = o + other.w * d;
   w += other.w;
@@ -121,8 +132,15 @@ void SharpInterface::gather_moments(const Fields& fields, int k) {
         Point towards = sum.n;
         if (!cut)
           visit_neighbours(cell, [&](std::int32_t other, const Point&) { towards = towards + moments_of(other).n; });
-        visit_neighbours(cell, [&](std::int32_t other, const Point& delta) {
-          if (const Moments there = moments_of(other); dot(towards, there.n) > 0) sum.add(there, delta);
+        const auto gather = [&](const Moments& there, const Point& delta) {
+          if (dot(towards, there.n) > 0) sum.add(there, delta);
+        };
+        const Moments own = sum;
+        visit_neighbours(cell, [&](std::int32_t other, const Point& delta) { gather(moments_of(other), delta); });
+        for_each_face(cell, [&](std::int32_t face, int side) {
+          if (!is_symmetry(face)) return;
+          const Point m{mesh_.nx[face], mesh_.ny[face], mesh_.nz[face]};
+          gather(own.mirrored(m), 2 * dot(outlines_.center(face, side), m) * m);
         });
       }
       next_moments_.push_back(sum);

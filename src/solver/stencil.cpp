@@ -59,6 +59,7 @@ Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Bou
   const std::size_t entries = static_cast<std::size_t>(stencil.size) * stencil.stride;
   stencil.cell.assign(entries, 0);
   stencil.mirror.assign(entries, 0);
+  stencil.body_mirror.assign(entries, 0);
   stencil.average.assign(entries, 0);
   for (int d = 0; d < 3; ++d) {
     stencil.weight[d].assign(entries, 0);
@@ -68,11 +69,13 @@ Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Bou
   stencil.tolerance.assign(stencil.stride, 0);
   stencil.at_mirror.assign(stencil.stride, 0);
 
-  std::vector<bool> is_mirror(mesh.n_boundary_faces), is_inflow(mesh.n_boundary_faces);
+  std::vector<bool> is_mirror(mesh.n_boundary_faces), is_symmetry(mesh.n_boundary_faces),
+      is_inflow(mesh.n_boundary_faces);
   for (std::size_t i = 0; i < boundaries.size(); ++i)
     for (std::int32_t f = mesh.boundary_groups[i].first; f < mesh.boundary_groups[i].last; ++f) {
       const std::int32_t b = f - mesh.first_boundary_face();
       is_mirror[b] = is_mirror_image(boundaries[i]);
+      is_symmetry[b] = is_plane_of_symmetry(boundaries[i]);
       is_inflow[b] = std::holds_alternative<Inflow>(boundaries[i]);
     }
   const double domain = diagonal(mesh, mpi);
@@ -95,7 +98,8 @@ Stencil make_stencil(const Mesh& mesh, const Faces& faces, const std::vector<Bou
       else if (is_inflow[face - mesh.first_boundary_face()])
         stencil.cell[at] = mesh.ghost_of(face);
       else if (is_mirror[face - mesh.first_boundary_face()])
-        stencil.mirror[at] = 2, stencil.at_mirror[cell] = 1;
+        stencil.mirror[at] = 2, stencil.at_mirror[cell] = 1,
+        stencil.body_mirror[at] = is_symmetry[face - mesh.first_boundary_face()];
       const double x[3] = {delta.x, delta.y, delta.z};
       for (int d = 0; d < 3 && several; ++d) stencil.delta[d][at] = x[d];
       for (int a = 0; a < 3; ++a)

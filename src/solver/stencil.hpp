@@ -24,6 +24,7 @@ struct Stencil {
   bool averages_in(std::int32_t owned_cell) const;
   AlignedVector<double> to_face[3];       ///< from the cell's centroid to those of its faces [m]
   AlignedVector<double> mirror;           ///< 2 where the face is a mirror: its normal turns the values, else 0
+  AlignedVector<double> body_mirror;      ///< 1 where it is a plane of symmetry, else 0
   AlignedVector<double> tolerance;        ///< per cell: (size of the cell / size of the domain)^(3/2)
   AlignedVector<std::int32_t> at_mirror;  ///< per cell: whether one of its faces is a mirror
 };
