@@ -3,7 +3,7 @@
 DefineConstant[
   inner = {1, Name "inner radius of the ring [m]"},
   outer = {2, Name "outer radius of the ring [m]"},
-  within = {0.35, Name "inner radius of the room [m]"},
+  within = {0.2, Name "inner radius of the room [m]"},
   around = {2.5, Name "outer radius of the room [m]"},
   h = {0.1, Name "size of a cell [m]"},
   element = {4, Choices{3 = "triangles, unstructured", 4 = "quadrilaterals"}, Name "element"}

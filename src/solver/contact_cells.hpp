@@ -67,7 +67,8 @@ Face<G, K, Real> contact_side(const Phase& phase, const Indices<Real>& cell, con
   return load_face_state<G>(side, load_cobasis_of<G, K>(side), frame);
 }
 
-/// The state where the contact is, by the slopes of its cell; the cell's own where they say another volume of e.
+/// The state where the contact is at the middle of the step, by the slopes of its cell; the cell's own where they say
+/// another volume of e.
 template <class G, Kind K, class Real>
 struct SlopedSide {
   using P = Primitives<G, K>;
@@ -78,7 +79,8 @@ struct SlopedSide {
 
   SlopedSide(const Phase& of, const Indices<Real>& in, const ContactList& list, std::int32_t i) : phase(of), cell(in) {
     const auto mean = mean_state<G, K, Real>(phase, cell);
-    w = mean;
+    for (int v = 0; v < P::size; ++v)
+      w[v] = mean[v] + gather<Real>(phase.used_slopes.component(P::size * G::dimension + v), cell);
     for (int d = 0; d < G::dimension; ++d) {
       const Real r = load<Real>(&list.at[d][i]) - gather<Real>(phase.centre.component(d), cell);
       for (int v = 0; v < P::size; ++v)

@@ -104,7 +104,8 @@ struct Phase {
   AlignedVector<double> wetted[2];     ///< of sharp interfaces: fraction of each face as seen from its left and its
                                        ///< right cell, where Fields::near says so
   /// Of sharp interfaces at second order, per cell: where the phase's centroid lies, relative to the cell's [m], and
-  /// the slopes with which it was reconstructed; both 0 far from interfaces.
+  /// the slopes with which it was reconstructed, [quantity and direction][cell], then by how much every quantity
+  /// changes in half a step; all 0 far from interfaces.
   CellNumbers centre, used_slopes;
   AlignedVector<double> wetted_at[3];  ///< likewise per face: where its part of it lies, relative to the face's [m]
 

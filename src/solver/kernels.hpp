@@ -33,7 +33,8 @@ struct PhaseKernels {
                        std::int32_t n, double dt, double centring) = nullptr;
   void (*hoop_of_cells)(Phase&, const Rings&, const CellList&, std::int32_t n) = nullptr;  ///< null in space
   FreeSurfaceKernel free_surface_in_cells = nullptr, free_surface_speed = nullptr;
-  int n_conserved = 0, n_primitive = 0, n_flux = 0, n_gain = 0, n_side = 0, n_face_state = 0, n_slopes = 0, n_inner = 0;
+  int n_conserved = 0, n_primitive = 0, n_flux = 0, n_gain = 0, n_side = 0, n_face_state = 0, n_slopes = 0,
+      n_used_slopes = 0, n_inner = 0;
 };
 struct PairKernels {
   void (*sweep)(Faces&, Phase&, Phase&, const PairList&, Segment) = nullptr;

@@ -53,6 +53,7 @@ PhaseKernels phase_kernels_of() {
       .n_side = L::n_side,
       .n_face_state = L::n_face_state,
       .n_slopes = Primitives<G, K>::size * G::dimension,
+      .n_used_slopes = Primitives<G, K>::size * (G::dimension + 1),
       .n_inner = L::n_inner};
   if constexpr (G::dimension == 2) kernels.hoop_of_cells = &hoop_of_cells<G, K, Real>;
   if constexpr (Order == 2) add_second_order<G, K, Real>(kernels);

@@ -397,9 +397,11 @@ COBASIS_KERNEL std::int64_t reconstruct(Phase& phase, const EquationOfState& eos
     }
     if constexpr (A == Around::gaps) {
       if (phase.used_slopes.stride != 0)
-        for (int v = 0; v < P::size; ++v)
+        for (int v = 0; v < P::size; ++v) {
           for (int d = 0; d < D; ++d)
             scatter(select(good, gradient[v][d], Real(0.0)), phase.used_slopes.component(v * D + d), at);
+          scatter(select(good, half * rate[v], Real(0.0)), phase.used_slopes.component(P::size * D + v), at);
+        }
     }
     for (int j = 0; j < faces.max_cell_faces; ++j) {
       const Indices<Real> entry = lookup<Real>(&faces.cell_faces[static_cast<std::size_t>(j) * faces.cell_stride], at);

@@ -184,7 +184,7 @@ void Reconstruction::run(Group& group, Fields& fields, const Faces& faces, const
 void Reconstruction::forget_slopes(Fields& fields) {
   for (std::size_t k = 0; k < used_.size(); ++k) {
     CellNumbers& slopes = fields.phases[k].used_slopes;
-    for (int c = 0; c < kernels_[k].n_slopes; ++c)
+    for (int c = 0; c < kernels_[k].n_used_slopes; ++c)
       for (const std::int32_t cell : used_[k]) slopes.component(c)[cell] = 0;
     used_[k].clear();
   }

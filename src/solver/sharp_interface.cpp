@@ -51,7 +51,7 @@ SharpInterface::SharpInterface(const Mpi& mpi, const Mesh& mesh, const Faces& fa
     if (shares_planes_ && setup.scheme.order == 2) {
       phase.centre = CellNumbers(fields.n_all + pack_width, fields.dimension);
       for (int d = 0; d < fields.dimension; ++d) phase.wetted_at[d].assign(faces.area.size(), 0);
-      phase.used_slopes = CellNumbers(fields.n_all + pack_width, kernels[k].n_slopes);
+      phase.used_slopes = CellNumbers(fields.n_all + pack_width, kernels[k].n_used_slopes);
     }
     phase.inner = CellNumbers(mesh.n_owned + pack_width, kernels[k].n_inner);
   }

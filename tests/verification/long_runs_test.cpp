@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/integrals.hpp"
+#include "mesh/geometry.hpp"
 #include "support/scene.hpp"
 
 using namespace cobasis;
@@ -112,6 +113,29 @@ TEST_CASE("a tube breathes with the exact period and fades with second order") {
   const Swing coarse = tube(0.2, element, 0.05, 5.5);
   CAPTURE(coarse.loss(1));
   CHECK(coarse.loss(1) > 3 * fine.loss(1));
+}
+
+TEST_CASE("planes of symmetry are not felt: a quarter of a round tube stays round") {
+  const std::string outwards = "[\"x/(x^2+y^2)\", \"y/(x^2+y^2)\"]";
+  Scene scene = make_case("breathing_tube", {{"region.1.velocity", outwards}, {"end_time", "0.2"}}, ranks());
+  scene.run();
+  const Phase& rubber = scene.solver->fields().phases[0];
+  double around = 0, away = 0;
+  for (std::int32_t cell = 0; cell < scene.mesh.n_owned; ++cell) {
+    if (!(rubber.alpha[cell] > 1e-6)) continue;
+    const Point &x = scene.mesh.centroid[cell], n = (1 / length(x)) * x;
+    const double u = rubber.primitive[1][cell], v = rubber.primitive[2][cell];
+    around = std::max(around, std::fabs(n.x * v - n.y * u));
+    away = std::max(away, n.x * u + n.y * v);
+  }
+  CHECK(ranks().max(away) > 0.8);     // [m/s]
+  CHECK(ranks().max(around) < 1e-6);  // corners of cells lie on circles to 1e-8
+}
+
+TEST_CASE("a tube that breathes so deeply that its inside shrinks to 0.4 has the exact period") {
+  const Swing deepest = tube(0.1, 4, 1, 6);
+  CAPTURE(deepest.period(1));
+  CHECK(deepest.period(1) == Approx(4.0991).epsilon(0.01));
 }
 
 TEST_CASE("a tube that breathes deeply is faster, as the exact solution says") {
