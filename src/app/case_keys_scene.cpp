@@ -102,7 +102,9 @@ void add_boundaries_and_output(std::vector<KeyTable>& tables) {
   tables.push_back({"[boundary] type = no_slip",
                     "solids are bonded to it; before fluids, which have no viscosity, a frictionless wall",
                     {wall_velocity}});
-  tables.push_back({"[boundary] type = symmetry", "mirror", {}});
+  tables.push_back({"[boundary] type = symmetry",
+                    "mirror; bodies and interfaces go on beyond, which before a wall they do not",
+                    {}});
   tables.push_back({"[boundary] type = axis", "y = 0 of an axisymmetric scene, and nothing else", {}});
   tables.push_back({"[boundary] type = transmissive", "zero gradient", {}});
   tables.push_back({"[boundary] type = outlet",

@@ -34,12 +34,13 @@ using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 class RawStorage {
  public:
   RawStorage() = default;
-  explicit RawStorage(std::size_t n)
-      : block_(n == 0 ? nullptr : std::calloc(n + 2 * cache_line / sizeof(double), sizeof(double))) {
+  explicit RawStorage(std::size_t n) {
     if (n == 0) return;
+    std::size_t size = n * sizeof(double) + 2 * cache_line;
+    block_.reset(std::calloc(size, 1));
     if (!block_) throw std::bad_alloc();
-    const auto address = reinterpret_cast<std::uintptr_t>(block_.get());
-    data_ = reinterpret_cast<double*>((address + cache_line - 1) / cache_line * cache_line);
+    void* at = block_.get();
+    data_ = static_cast<double*>(std::align(cache_line, n * sizeof(double), at, size));
   }
   double* data() { return data_; }
   const double* data() const { return data_; }

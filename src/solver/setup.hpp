@@ -102,7 +102,7 @@ struct Wall {
 struct NoSlip {
   std::array<Expression, 3> velocity;  ///< [m/s]
 };
-struct Symmetry {};        ///< the same mirror
+struct Symmetry {};        ///< the same mirror; bodies and interfaces go on beyond
 struct AxisOfSymmetry {};  ///< y = 0 of an axisymmetric scene
 struct Transmissive {};    ///< zero gradient
 struct Outlet {

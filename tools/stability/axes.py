@@ -168,6 +168,17 @@ def courant_of_impact(grid, order, cfl):
     return impact(grid, order, 600.0, cfl=cfl)
 
 
+def courant_beside_void(grid, order, cfl):
+    """Noise in water whose surface halves cells."""
+    noise = grid.vector("NOISE").replace("'NOISE'", '"sin(9973*x+7919*y)"')
+    regions = [
+        filled(EVERYWHERE, "surroundings", grid.vector(0.0), pressure=0.0),
+        filled(grid.half(slope=0.0, x=8.5 / 16), "water", noise, pressure=0.0),
+    ]
+    phases = {"water": WATER, "surroundings": "void = { pressure = 0.0 }"}
+    return case(grid.square(16), order, 10 / 1600.0, phases, regions, CLOSED, cfl)
+
+
 def slivers(grid, order, aspect):
     return impact(grid, order, 600.0, aspect=aspect, end_time=0.35 / FASTEST * min(1, 20 / aspect))
 
@@ -234,6 +245,7 @@ def axes():
         Axis("volume fraction of copper", shares, fraction, [1e-12, 1 - 1e-12]),
         Axis("three phases meet at m/s", [0.0, 100.0, 800.0, 2e3, 5e3], three_phases, [800.0]),
         Axis("CFL, noise in aluminium", cfl, courant, [0.8, 2.0], grows=True),
+        Axis("CFL, noise in water beside a void", cfl, courant_beside_void, [0.8], grows=True),
         Axis("CFL, impact at 600 m/s", cfl, courant_of_impact, [0.8], grows=True),
         Axis("cells, length / height", [1.0, 10.0, 100.0, 1e3, 0.1, 0.01, 1e-3], slivers, [1e3]),
         Axis("streams of gas meet, Mach", [1e-3, 1e-2, 0.1, 1.0, 5.0, 10.0, 50.0], streams(1), [50.0]),
