@@ -100,6 +100,7 @@ struct Neighbourhood {
     for (int d = 0; d < D; ++d) image[d] = select(mirrored && !known, image[d] / length, n[d]);
     return image;
   }
+  bool is_mirror_of_any(int j) const { return any(of_entry(stencil.mirror, j) > Real(0.0)); }
   /// Turns e(beta, d), of a state or its slopes, into that of the mirror image where face j is a mirror.
   template <class Component>
   void reflect_cobasis(int j, const std::array<Real, D>& body_normal, const Component& e) const {
@@ -111,15 +112,16 @@ struct Neighbourhood {
       for (int beta = 0; beta < D; ++beta) e(beta, d) = e(beta, d) - twice * along * body_normal[beta];
     }
   }
-  /// Behind face j: another cell, or the mirror image of this one.
-  /// Where that does not hold the phase, `w`, the cell's own state.
+  /// Behind face j: another cell, or the mirror image of this one. Where that does not hold the phase, `w`, the cell's
+  /// own state.
   State beyond(int j, const State& w) const {
     State other = state(neighbour(j));
     if constexpr (A != Around::phase) {
       reflect(j, [&](int d) -> Real& { return other[P::u + d]; });
       if constexpr (K == Kind::solid)
-        reflect_cobasis(j, body_normal(j, normal_of(j), w),
-                        [&](int beta, int d) -> Real& { return other[P::e + beta * D + d]; });
+        if (is_mirror_of_any(j))
+          reflect_cobasis(j, body_normal(j, normal_of(j), w),
+                          [&](int beta, int d) -> Real& { return other[P::e + beta * D + d]; });
     }
     if constexpr (A == Around::gaps) {
       const Mask<Real> there = holds(j);
@@ -198,12 +200,13 @@ struct Neighbourhood {
 
   /// The gradients of the mirror image; w: the cell's own state.
   void mirror(typename P::template Gradients<Real>& gradient, int j, const State& w) const {
+    if (!is_mirror_of_any(j)) return;
     for (auto& of_quantity : gradient) reflect(j, [&](int d) -> Real& { return of_quantity[d]; });
-    for (int along = 0; along < D; ++along) {
-      reflect(j, [&](int d) -> Real& { return gradient[P::u + d][along]; });
-      if constexpr (K == Kind::solid)
-        reflect_cobasis(j, body_normal(j, normal_of(j), w),
-                        [&](int beta, int d) -> Real& { return gradient[P::e + beta * D + d][along]; });
+    for (int along = 0; along < D; ++along) reflect(j, [&](int d) -> Real& { return gradient[P::u + d][along]; });
+    if constexpr (K == Kind::solid) {
+      const std::array<Real, D> in_body = body_normal(j, normal_of(j), w);
+      for (int along = 0; along < D; ++along)
+        reflect_cobasis(j, in_body, [&](int beta, int d) -> Real& { return gradient[P::e + beta * D + d][along]; });
     }
   }
 };

@@ -9,7 +9,7 @@
 namespace cobasis {
 namespace {
 
-constexpr double least_donor = 0.03;    ///< what is small itself has no state to share
+constexpr double least_donor = 0.03;     ///< what is small itself has no state to share
 constexpr double small_fraction = 0.55;  ///< below this volume fraction a phase is averaged
 /// A negative volume may take away so much of the neighbour's share that their mean means nothing. The sum of both must
 /// exceed this part of the sum of magnitudes: then the mean leaves the range of the two states by half their difference
