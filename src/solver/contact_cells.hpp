@@ -2,6 +2,7 @@
 // the mesh lies.
 #pragma once
 
+#include "physics/ripples.hpp"
 #include "physics/smooth_flow.hpp"
 #include "solver/contact_sweep.hpp"
 #include "solver/mean_state.hpp"
@@ -201,6 +202,16 @@ COBASIS_KERNEL void free_surface_in_cells(Phase& phase, double p0, ContactList& 
     store(star.u_star, &list.speed[i]);
     if constexpr (!SpeedOnly)
       act_in_cell<G, K>(phase, cell, frame, load<Real>(&list.area[i]), star, free_tangential<G, K, Real>(l, 1.0));
+  }
+}
+
+/// The list's speeds: of ripples along surfaces of a solid with the list's normals.
+template <class G, class Real>
+COBASIS_KERNEL void ripple_speeds(const Phase& phase, ContactList& list, std::int32_t n) {
+  for (std::int32_t i = 0; i < n; i += lanes<Real>) {
+    const CellSide<Real> side{phase, load_indices<Real>(&list.cell[i])};
+    const SolidState<G, Real> state = load_solid_state<G>(side, load_cobasis_of<G, Kind::solid>(side));
+    store(ripple_speed(phase.material, state, contact_frame<G, Real>(list, i)), &list.speed[i]);
   }
 }
 

@@ -113,11 +113,14 @@ FluidFace<G, Real> load_face_state(const Side& side, Zero, const Frame<G, Real>&
 }
 /// The metric is formed from e, which is needed anyway; a cell keeps only its scale.
 template <class G, class Side, class Real>
-SolidFace<G, Real> load_face_state(const Side& side, const Cobasis<G, Real>& e, const Frame<G, Real>& frame) {
+SolidState<G, Real> load_solid_state(const Side& side, const Cobasis<G, Real>& e) {
   using L = Layout<G, Kind::solid>;
   const Real scale = side.template primitive<L>(L::metric_scale);
-  return face_state(side.phase.material,
-                    SolidState<G, Real>{load_fluid_state<G, Kind::solid>(side), scaled_metric(e, scale)}, frame);
+  return {load_fluid_state<G, Kind::solid>(side), scaled_metric(e, scale)};
+}
+template <class G, class Side, class Real>
+SolidFace<G, Real> load_face_state(const Side& side, const Cobasis<G, Real>& e, const Frame<G, Real>& frame) {
+  return face_state(side.phase.material, load_solid_state<G>(side, e), frame);
 }
 
 /// Mixed slots have their own numbering in the buffers that pure faces do not need.
@@ -137,6 +140,36 @@ template <class Real>
 void stand_in(FaceSide<Real>& absent, const FaceSide<Real>& present, int j) {
   absent.at[j] = present.at[j];
   absent.consecutive = false;
+}
+
+/// What each side gains where ripples are levelled: volume, with mass, momentum, energy and cobasis of the side from
+/// which it comes. `flow`: from left to right [m^3/s].
+template <class G, Kind K, class Real, class E>
+void keep_levelling(const Phase& phase, const FacePack<Real>& face, const Faces& faces, const Face<G, K, Real>& l,
+                    const Face<G, K, Real>& r, const E& e_l, const E& e_r, const Frame<G, Real>& frame, double* gain) {
+  using L = Layout<G, K>;
+  const Real flow = face(phase.levelling) * face(faces.area);
+  const Mask<Real> from_left = flow > Real(0.0);
+  const auto u_l = out_of_frame(frame, l.u), u_r = out_of_frame(frame, r.u);
+  const Real mass = flow * select(from_left, l.rho, r.rho), E_from = select(from_left, l.E, r.E);
+  for (int side = 0; side < 2; ++side) {
+    const Real sign(side == 0 ? -1.0 : 1.0);
+    const auto keep = [&](int c, const Real& value) {
+      store(sign * value, gain + (side * L::gain_side + c) * pack_width);
+    };
+    keep(L::mass, mass);
+    keep(L::momentum, mass * select(from_left, u_l.x, u_r.x));
+    keep(L::momentum + 1, mass * select(from_left, u_l.y, u_r.y));
+    if constexpr (G::dimension == 3) keep(L::momentum + 2, mass * select(from_left, u_l.z, u_r.z));
+    keep(L::energy, mass * E_from);
+    keep(L::gain_alpha, flow);
+    if constexpr (K == Kind::solid) {
+      const Indices<Real> cell = face(side == 0 ? faces.left : faces.right);
+      for_each_component(upwind(from_left, e_l, e_r), [&](int c, const Real& value) {
+        keep(L::gain_cobasis + c, flow * (gather<Real>(phase.conserved[L::cobasis + c].data(), cell) - value));
+      });
+    }
+  }
 }
 
 /// What lies right of a face: another cell, the mirror image of the left one, or what the case prescribes.
@@ -247,6 +280,9 @@ COBASIS_KERNEL void sweep_same(Faces& faces, Phase& phase, Segment segment) {
       const std::int32_t own = gain_slot(slot, first_slot);
       double* const gain = phase.gain.data() + slot_base(own, L::n_gain);
       for (int c = 0; c < L::n_gain; ++c) store(Real(0.0), gain + c * pack_width);
+      if constexpr (B == Beyond::cell)
+        if (!phase.levelling.empty() && any(magnitude(face(phase.levelling)) > Real(0.0)))
+          keep_levelling<G, K>(phase, face, faces, l, r, e_l, e_r, frame, gain);
       double* const sides = phase.sides.data() + slot_base(own, 2 * L::n_side);
       const auto keep_side = [&](int side, const Face<G, K, Real>& s) {
         double* const to = sides + side * L::n_side * pack_width;

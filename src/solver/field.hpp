@@ -108,6 +108,9 @@ struct Phase {
   /// changes in half a step; all 0 far from interfaces.
   CellNumbers centre, used_slopes;
   AlignedVector<double> wetted_at[3];  ///< likewise per face: where its part of it lies, relative to the face's [m]
+  /// Of sharp interfaces beside a solid, per face: volume of the phase that goes from left to right to level ripples,
+  /// per area and time [m/s].
+  AlignedVector<double> levelling;
 
   /// [kg/m^3]; alone in its scene, a phase has no other mass per volume than this.
   const AlignedVector<double>& density() const { return alpha.empty() ? conserved[0] : primitive[0]; }

@@ -33,6 +33,7 @@ struct PhaseKernels {
                        std::int32_t n, double dt, double centring) = nullptr;
   void (*hoop_of_cells)(Phase&, const Rings&, const CellList&, std::int32_t n) = nullptr;  ///< null in space
   FreeSurfaceKernel free_surface_in_cells = nullptr, free_surface_speed = nullptr;
+  void (*ripple_speed)(const Phase&, ContactList&, std::int32_t n) = nullptr;  ///< null of fluids
   int n_conserved = 0, n_primitive = 0, n_flux = 0, n_gain = 0, n_side = 0, n_face_state = 0, n_slopes = 0,
       n_used_slopes = 0, n_inner = 0;
 };

@@ -56,6 +56,7 @@ PhaseKernels phase_kernels_of() {
       .n_used_slopes = Primitives<G, K>::size * (G::dimension + 1),
       .n_inner = L::n_inner};
   if constexpr (G::dimension == 2) kernels.hoop_of_cells = &hoop_of_cells<G, K, Real>;
+  if constexpr (K == Kind::solid) kernels.ripple_speed = &ripple_speeds<G, Real>;
   if constexpr (Order == 2) add_second_order<G, K, Real>(kernels);
   return kernels;
 }

@@ -77,7 +77,8 @@ void RemoteVolumes::exchange(const Mesh& mesh, const Choice& chosen, const Numbe
   }
 }
 
-/// Hangs nodes on those of the level before; on roots at level 1.
+/// Hangs nodes on those of the level before, which have more of the phase; on roots at level 1. What has less between
+/// itself and the root is debris: with the root's stress, step after step, it would swell at the root's expense.
 void RemoteVolumes::grow(const Mesh& mesh, const Faces& faces, const Fields& fields, int level) {
   const std::size_t n = nodes_.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -90,7 +91,7 @@ void RemoteVolumes::grow(const Mesh& mesh, const Faces& faces, const Fields& fie
         if (!(alpha[other] > least_root_)) return;
       } else {
         const Node* const there = find(node.k, other);
-        if (!there || there->level != level - 1 || !(alpha[other] > 0)) return;
+        if (!there || there->level != level - 1 || !(alpha[other] >= std::fabs(alpha[node.cell]))) return;
       }
       if (parent < 0 || alpha[other] > alpha[parent] ||
           (alpha[other] == alpha[parent] && mesh.global_id[other] < mesh.global_id[parent]))

@@ -19,7 +19,7 @@ std::vector<std::size_t> capacities(const Mesh& mesh, std::size_t per_cell) {
 std::size_t numbers_per_cell(const Fields& fields) {
   std::size_t states = 0;
   for (const Phase& phase : fields.phases) states += phase.conserved.size() + phase.primitive.size();
-  return fields.phases.size() * 12 + states;
+  return fields.phases.size() * 13 + states;
 }
 
 }  // namespace
@@ -39,12 +39,16 @@ SharpInterface::SharpInterface(const Mpi& mpi, const Mesh& mesh, const Faces& fa
       exchange_(mpi, mesh.neighbours, capacities(mesh, numbers_per_cell(fields)), 16),
       shares_planes_(setup.scheme.interface == InterfaceTreatment::sharp) {
   const int n = fields.n_phases();
+  levels_ = shares_planes_ && std::ranges::any_of(fields.phases, [](const Phase& phase) {
+              return !phase.is_void && phase.kind == Kind::solid;
+            });
   for (int k = 0; k < n; ++k)
     if (fields.phases[k].is_void || (n == 2 && k == 1 && rest_ < 0 && !fields.phases[0].is_void)) rest_ = k;
   for (int k = 0; k < n; ++k) {
     if (k != rest_) planes_of_.push_back(k), cells_[k].resize(mesh.n_cells());
     Phase& phase = fields.phases[k];
     for (auto& side : phase.wetted) side.assign(faces.area.size(), 0);
+    if (levels_) phase.levelling.assign(faces.area.size(), 0);
     health_.emplace_back(mesh.n_cells(), 0);
     borrowed_.emplace_back(mesh.n_cells(), -1);
     if (phase.is_void) continue;
@@ -181,6 +185,7 @@ void SharpInterface::wet_face(const Faces& faces, Fields& fields, std::int32_t f
     if (!boundary) {
       const double other = side_fraction(fields, k, face, 1, dt), both = share + other;
       agree = agree && std::fabs(share - other) <= agreement * std::min(both, 2 - both);
+      if (levels_) level(faces, fields, k, face, share - other, dt);
       share = from_left * share + (1 - from_left) * other;
     }
     wetted(k) = share < 1e-12 ? 0 : share > 1 - 1e-12 ? 1 : share;
@@ -216,6 +221,8 @@ void SharpInterface::wet_face(const Faces& faces, Fields& fields, std::int32_t f
 void SharpInterface::wet(const Faces& faces, Fields& fields, double dt) {
   for (const std::int32_t f : near_faces_) {
     fields.near[f] = 0;
+    if (levels_)
+      for (Phase& phase : fields.phases) phase.levelling[f] = 0;
     if (knows_centres(fields)) forget_wetted_centroids(fields, f);
   }
   near_faces_.clear();

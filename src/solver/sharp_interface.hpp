@@ -40,10 +40,11 @@ class SharpInterface {
   struct Cell {
     CutPlane plane;
     PlaneSection cut;
-    double speed = 0;  ///< of the plane along its normal [m/s]
-    double blend = 1;  ///< how much of what the plane says counts for its faces, see blend_of
-    int ring = 0;      ///< 1: the cell is cut; 2, 3: it has the plane of a neighbour; -1: it is cut, but keeps its
-                       ///< plane for itself; valid if step is the present
+    double speed = 0;         ///< of the plane along its normal [m/s]
+    double ripple_speed = 0;  ///< see ripple_speed [m/s]
+    double blend = 1;         ///< how much of what the plane says counts for its faces, see blend_of
+    int ring = 0;  ///< 1: the cell is cut; 2, 3: it has the plane of a neighbour; -1: it is cut, but keeps its
+                   ///< plane for itself; valid if step is the present
     std::int64_t step = -1;  ///< in which it was placed
   };
   /// Where the sections of planes around a cell lie: sums of weight times 1, r and r r, r from the cell's centroid, and
@@ -84,6 +85,8 @@ class SharpInterface {
   void find_wetted_centroids(Fields& fields, std::int32_t face, int side, double dt) const;
   void forget_wetted_centroids(Fields& fields, std::int32_t face) const;
   void find_speeds(Fields& fields);
+  void find_ripple_speeds(Fields& fields);
+  void level(const Faces& faces, Fields& fields, int k, std::int32_t face, double step, double dt);
   void seed(const Faces& faces, Fields& fields);
   void spread(Fields& fields, int ring);
   void adopt(Fields& fields, int k, std::int32_t cell, std::int32_t from, const CutPlane& plane, double speed,
@@ -136,6 +139,7 @@ class SharpInterface {
   std::vector<std::int32_t> following_;  // cells of the present followers
   NeighbourExchange exchange_;
   bool shares_planes_;
+  bool levels_ = false;  ///< whether ripples are levelled: beside solids
   std::int64_t step_ = 0;
   std::int64_t stage_ = 0, first_stage_ = 0;  // exchanges of planes so far; at the beginning of the step
   bool settled_ = false;                      // whether the normals have been found once

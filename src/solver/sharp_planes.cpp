@@ -159,7 +159,7 @@ void SharpInterface::exchange(Fields& fields) {
       if (ring == 0) continue;
       c.ring = ring, c.step = step_;
       for (double* number : {&c.plane.n.x, &c.plane.n.y, &c.plane.n.z, &c.plane.d, &c.cut.centroid.x, &c.cut.centroid.y,
-                             &c.cut.centroid.z, &c.cut.area, &c.speed})
+                             &c.cut.centroid.z, &c.cut.area, &c.speed, &c.ripple_speed})
         with(*number);
     }
     for (int k = 0; k < fields.n_phases(); ++k) {
@@ -261,6 +261,7 @@ void SharpInterface::find_speeds(Fields& fields) {
       speed_users_[k * n + other].emplace_back(cell, k);
     }
   run_speeds(fields);
+  if (levels_) find_ripple_speeds(fields);
 }
 
 void SharpInterface::run_speeds(Fields& fields) {
@@ -280,7 +281,7 @@ void SharpInterface::adopt(Fields& fields, int k, std::int32_t cell, std::int32_
     if (!fields.phases[phase].is_void && !has_state(fields, phase, cell) && lends(fields, phase, from))
       borrow(fields, phase, cell, from);
   borrow_missing(fields, cell);
-  c = {plane, {}, speed, 1, ring, step_};
+  c = {plane, {}, speed, 0, 1, ring, step_};
   const CellCorners& corners = find_corners(cell);
   const double bound = place_plane(corners, plane.n, fields.phases[k].alpha[cell]);
   c.plane.d = fields.phases[k].alpha[cell] > 0 ? std::max(c.plane.d, bound) : std::min(c.plane.d, bound);

@@ -1,0 +1,65 @@
+// Ripples of surfaces that are compressed along themselves.
+#include <algorithm>
+#include <cmath>
+
+#include "solver/sharp_interface.hpp"
+
+namespace cobasis {
+
+/// Of the planes whose contacts are listed.
+void SharpInterface::find_ripple_speeds(Fields& fields) {
+  const int n = fields.n_phases();
+  for (int l = 0; l < n; ++l)
+    for (int m = 0; m < n; ++m) {
+      const auto& users = speed_users_[l * n + m];
+      for (const auto& [cell, k] : users) cells_[k][cell].ripple_speed = 0;
+      for (const int phase : {l, m}) {
+        if (users.empty() || !kernels_[phase].ripple_speed) continue;
+        ContactList& list = contacts_[l * n + m];
+        kernels_[phase].ripple_speed(fields.phases[phase], list, static_cast<std::int32_t>(users.size()));
+        for (std::size_t i = 0; i < users.size(); ++i) {
+          double& speed = cells_[users[i].second][users[i].first].ripple_speed;
+          speed = std::max(speed, list.speed[static_cast<std::int32_t>(i)]);
+        }
+      }
+    }
+}
+
+/// Levels the step that the planes of a face's cells leave there in phase k, `step` of the face: left minus right. As
+/// nothing flows along a surface at rest, no Riemann problem sees it, and ripples two to four cells long would grow
+/// where the surface is compressed along itself by a third. They are waves (ripple_speed), and this is their
+/// dissipation: volume goes across the face with their speed times the step, and takes along what it contains. Of a
+/// smooth surface the step is of third order. Upwinding would have half the speed: that leaves some ripples.
+void SharpInterface::level(const Faces& faces, Fields& fields, int k, std::int32_t face, double step, double dt) {
+  constexpr double most_taken = 0.25;  // of a volume, in a step through a face
+  const std::int32_t left = mesh_.left[face], right = mesh_.right[face];
+  double speed = 0;
+  for (const std::int32_t cell : {left, right}) {
+    const Cell& c = cells_[k][cell];
+    if (!valid(k, cell) || c.ring != 1) return;
+    const Point& n = c.plane.n;
+    const double across = n.x * faces.nx[face] + n.y * faces.ny[face] + n.z * (faces.nz.empty() ? 0 : faces.nz[face]);
+    speed = std::max(speed, c.ripple_speed * std::sqrt(std::max(0.0, 1 - across * across)));
+  }
+  if (speed == 0 || step == 0) return;
+  int other = -1;
+  for (int m = 0; m < fields.n_phases(); ++m) {
+    if (m == k) continue;
+    const auto& alpha = fields.phases[m].alpha;
+    const bool in_left = alpha[left] > 0, in_right = alpha[right] > 0;
+    if (!in_left && !in_right) continue;
+    if (other >= 0 || !in_left || !in_right) return;  // a third phase is near
+    other = m;
+  }
+  if (other < 0) return;
+  const bool to_right = step > 0;
+  const std::int32_t from = to_right ? left : right, to = to_right ? right : left;
+  const double content =
+      std::min(fields.phases[k].alpha[from] * fields.volume[from], fields.phases[other].alpha[to] * fields.volume[to]);
+  double flow = speed * std::fabs(step);  // [m/s]
+  if (dt > 0) flow = std::min(flow, most_taken * content / (faces.area[face] * dt));
+  fields.phases[k].levelling[face] = to_right ? flow : -flow;
+  fields.phases[other].levelling[face] = to_right ? -flow : flow;
+}
+
+}  // namespace cobasis
