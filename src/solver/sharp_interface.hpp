@@ -86,6 +86,7 @@ class SharpInterface {
   void forget_wetted_centroids(Fields& fields, std::int32_t face) const;
   void find_speeds(Fields& fields);
   void find_ripple_speeds(Fields& fields);
+  double extent(const Fields& fields, int k, std::int32_t cell) const;
   void level(const Faces& faces, Fields& fields, int k, std::int32_t face, double step, double dt);
   void seed(const Faces& faces, Fields& fields);
   void spread(Fields& fields, int ring);

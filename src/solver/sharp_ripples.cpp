@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/geometry.hpp"
 #include "solver/sharp_interface.hpp"
 
 namespace cobasis {
@@ -25,21 +26,29 @@ void SharpInterface::find_ripple_speeds(Fields& fields) {
     }
 }
 
+/// How far the plane of a cell reaches in it [m].
+double SharpInterface::extent(const Fields& fields, int k, std::int32_t cell) const {
+  const PlaneSection& cut = cells_[k][cell].cut;
+  if (fields.dimension == 3) return std::sqrt(cut.area);
+  return mesh_.axisymmetric ? cut.area / (mesh_.centroid[cell].y + cut.centroid.y) : cut.area;
+}
+
 /// Levels the step that the planes of a face's cells leave there in phase k, `step` of the face: left minus right. As
 /// nothing flows along a surface at rest, no Riemann problem sees it, and ripples two to four cells long would grow
 /// where the surface is compressed along itself by a third. They are waves (ripple_speed), and this is their
 /// dissipation: volume goes across the face with their speed times the step, and takes along what it contains. Of a
 /// smooth surface the step is of third order. Upwinding would have half the speed: that leaves some ripples.
 void SharpInterface::level(const Faces& faces, Fields& fields, int k, std::int32_t face, double step, double dt) {
+  constexpr double farthest = 0.25;    // across the section of either cell, in a step
   constexpr double most_taken = 0.25;  // of a volume, in a step through a face
   const std::int32_t left = mesh_.left[face], right = mesh_.right[face];
-  double speed = 0;
+  double speed = 0, way = infinity;
   for (const std::int32_t cell : {left, right}) {
     const Cell& c = cells_[k][cell];
     if (!valid(k, cell) || c.ring != 1) return;
-    const Point& n = c.plane.n;
-    const double across = n.x * faces.nx[face] + n.y * faces.ny[face] + n.z * (faces.nz.empty() ? 0 : faces.nz[face]);
-    speed = std::max(speed, c.ripple_speed * std::sqrt(std::max(0.0, 1 - across * across)));
+    const Point along = cross(c.plane.n, Point{faces.nx[face], faces.ny[face], faces.nz[face]});
+    speed = std::max(speed, c.ripple_speed * length(along));
+    way = std::min(way, farthest * extent(fields, k, cell));
   }
   if (speed == 0 || step == 0) return;
   int other = -1;
@@ -57,7 +66,7 @@ void SharpInterface::level(const Faces& faces, Fields& fields, int k, std::int32
   const double content =
       std::min(fields.phases[k].alpha[from] * fields.volume[from], fields.phases[other].alpha[to] * fields.volume[to]);
   double flow = speed * std::fabs(step);  // [m/s]
-  if (dt > 0) flow = std::min(flow, most_taken * content / (faces.area[face] * dt));
+  if (dt > 0) flow = std::min({flow, way / dt * std::fabs(step), most_taken * content / (faces.area[face] * dt)});
   fields.phases[k].levelling[face] = to_right ? flow : -flow;
   fields.phases[other].levelling[face] = to_right ? -flow : flow;
 }

@@ -38,6 +38,7 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
     if (phase != k && alpha(phase, cell) > alpha(j, cell)) j = phase;
   const double own = alpha(k, cell), volume = own * fields.volume[cell];
 
+  const Phase& carrier = fields.phases[fields.phases[j].is_void ? k : j];
   std::int32_t donor = -1, richest = -1, ahead = -1;
   double most_ahead = 0;
   const auto better = [&](std::int32_t candidate, std::int32_t than) {
@@ -51,12 +52,10 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
     if (face >= mesh.first_boundary_face()) continue;
     const std::int32_t d = entry & 1 ? faces.left[face] : faces.right[face];
     if (d == cell) continue;
-    if (const Phase& carrier = fields.phases[j]; !carrier.is_void) {
-      double flow = carrier.conserved[1][cell] * faces.nx[face] + carrier.conserved[2][cell] * faces.ny[face];
-      if (fields.dimension == 3) flow += carrier.conserved[3][cell] * faces.nz[face];
-      flow *= (entry & 1 ? -1 : 1) * faces.area[face];
-      if (flow > most_ahead) ahead = d, most_ahead = flow;
-    }
+    double flow = carrier.conserved[1][cell] * faces.nx[face] + carrier.conserved[2][cell] * faces.ny[face];
+    if (fields.dimension == 3) flow += carrier.conserved[3][cell] * faces.nz[face];
+    flow *= (entry & 1 ? -1 : 1) * faces.area[face];
+    if (flow > most_ahead) ahead = d, most_ahead = flow;
     if (!(alpha(k, d) > own)) continue;
     if (better(d, richest)) richest = d;
     if (!(alpha(k, d) > std::fabs(own))) continue;
@@ -68,8 +67,9 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
   if (volume < 0 && !has(alpha(j, cell) * fields.volume[cell], -volume, fields.volume[cell])) donor = -1;
   // what stays behind where no neighbour has the phase any more follows it
   if (richest < 0) richest = ahead;
+  // dust in a neighbour, which would rather take it, is about to leave that one too
   const bool dust_only =
-      donor < 0 && richest >= 0 && std::fabs(own) < largest_dust(fields, fields.phases[j], cell, planes);
+      donor != richest && richest >= 0 && std::fabs(own) < largest_dust(fields, fields.phases[j], cell, planes);
   if (dust_only) donor = richest;
   if (donor < 0) {
     ++counters_.kept;
