@@ -9,7 +9,7 @@
 namespace cobasis {
 namespace {
 
-constexpr double least_donor = 0.03;     ///< what is small itself has no state to share
+constexpr double least_donor = 0.1;      ///< what is small itself has no state to share: waves cross it as often
 constexpr double small_fraction = 0.55;  ///< below this volume fraction a phase is averaged
 /// A negative volume may take away so much of the neighbour's share that their mean means nothing. The sum of both must
 /// exceed this part of the sum of magnitudes: then the mean leaves the range of the two states by half their difference
@@ -312,7 +312,7 @@ void Redistribution::run(const Mesh& mesh, const Faces& faces, Fields& fields,
     for (const std::int32_t cell : candidates) {
       const double alpha = phase.alpha[cell];
       if (alpha == 0 || !(alpha < small_fraction)) continue;
-      const bool tiny = std::fabs(alpha) < least_donor;
+      const bool tiny = std::fabs(alpha) <= least_donor;
       if (tiny) small_.emplace_back(cell, k);
       if (choose(mesh, faces, fields, k, cell, std::max(least_donor, std::fabs(alpha)))) {
         if (!(phase.alpha[pairs_.back().donor] < small_fraction)) continue;
