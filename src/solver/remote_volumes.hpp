@@ -15,18 +15,18 @@
 
 namespace cobasis {
 
-/// Trees of cells that share faces: the root has more than `least_root` of the phase, a branch less or as much; every branch hangs
-/// on the cell with most of the phase among those nearer to a root. Trees deeper than one branch take the mean of mass,
-/// momentum, energy per volume of the phase, and of the cobasis, over all their cells: the sum over the tree is
-/// conserved.
+/// Trees of cells that share faces: the root has more than `least_root` of the phase, a branch less or as much; every
+/// branch hangs on the cell with most of the phase among those nearer to a root. Trees deeper than one branch take the
+/// mean of mass, momentum, energy per volume of the phase, and of the cobasis, over all their cells: the sum over the
+/// tree is conserved.
 class RemoteVolumes {
  public:
   static constexpr int deepest = 4;
 
   RemoteVolumes(const Mpi& mpi, const Mesh& mesh, const Fields& fields, double least_root);
 
-  /// `small`: (owned cell, phase) with a volume fraction that is not 0 and at most `least_root`; volume fractions of the
-  /// halo must be known. Collective. The same bits for any partition. Returns how many hang on no root.
+  /// `small`: (owned cell, phase) with a volume fraction that is not 0 and at most `least_root`; volume fractions of
+  /// the halo must be known. Collective. The same bits for any partition. Returns how many hang on no root.
   std::int64_t run(const Mesh& mesh, const Faces& faces, Fields& fields,
                    std::span<const std::pair<std::int32_t, int>> small);
 

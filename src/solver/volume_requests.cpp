@@ -39,7 +39,6 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
   const double own = alpha(k, cell), volume = own * fields.volume[cell];
 
   const Phase& carrier = fields.phases[fields.phases[j].is_void ? k : j];
-  const double dust = largest_dust(fields, fields.phases[j], cell, planes);
   std::int32_t donor = -1, richest = -1, ahead = -1;
   double most_ahead = 0;
   const auto better = [&](std::int32_t candidate, std::int32_t than) {
@@ -59,7 +58,7 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
     if (flow > most_ahead) ahead = d, most_ahead = flow;
     if (!(alpha(k, d) > own)) continue;
     if (better(d, richest)) richest = d;
-    if (!(alpha(k, d) > std::fabs(own)) || alpha(k, d) < dust) continue;  // dust is about to leave d too
+    if (!(alpha(k, d) > std::fabs(own)) || alpha(k, d) < dust_threshold) continue;  // it is about to leave d too
     if (forced && alpha(k, d) < least_to_give_) continue;  // what is inadmissible needs a healthy partner
     // a negative volume comes with the cell's own j: part of a tiny alpha_j in d would be more than all that is there
     const double left = volume < 0 ? alpha(k, d) : alpha(j, d) >= least_to_give_ ? alpha(j, d) : 0;
@@ -68,7 +67,8 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
   if (volume < 0 && !has(alpha(j, cell) * fields.volume[cell], -volume, fields.volume[cell])) donor = -1;
   // what stays behind where no neighbour has the phase any more follows it
   if (richest < 0) richest = ahead;
-  const bool dust_only = donor < 0 && richest >= 0 && std::fabs(own) < dust;
+  const bool dust_only =
+      donor < 0 && richest >= 0 && std::fabs(own) < largest_dust(fields, fields.phases[j], cell, planes);
   if (dust_only) donor = richest;
   if (donor < 0) {
     ++counters_.kept;
