@@ -129,7 +129,19 @@ struct Neighbourhood {
     }
     return other;
   }
-  Mask<Real> holds(int j) const { return gather<Real>(phase.alpha.data(), neighbour(j)) > Real(least_for_slopes); }
+  /// Whether the phase is behind face j. The mirror image is where the phase touches the mirror: while a void is
+  /// between them, a body knows nothing of a wall.
+  Mask<Real> holds(int j) const {
+    Mask<Real> there = gather<Real>(phase.alpha.data(), neighbour(j)) > Real(least_for_slopes);
+    if (!phase.wetted[0].empty() && is_mirror_of_any(j)) {
+      Indices<Real> face = lookup<Real>(&faces.cell_faces[entry(j)], at);
+      for (auto& f : face) f >>= 1;
+      const Mask<Real> full = gather<Real>(phase.alpha.data(), at) == Real(1.0);
+      const Mask<Real> touches = gather<Real>(phase.wetted[0].data(), face) > Real(0.0);
+      there = there && (full || touches || !(of_entry(stencil.mirror, j) > Real(0.0)));
+    }
+    return there;
+  }
   /// Least squares. Beside gaps between the centroids of the phase, weighted by its volume fractions; neighbours
   /// without it hold the slope towards them down, a little.
   typename P::template Gradients<Real> gradient(const State& w) const {

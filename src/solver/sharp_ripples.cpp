@@ -37,20 +37,22 @@ double SharpInterface::extent(const Fields& fields, int k, std::int32_t cell) co
 /// nothing flows along a surface at rest, no Riemann problem sees it, and ripples two to four cells long would grow
 /// where the surface is compressed along itself by a third. They are waves (ripple_speed), and this is their
 /// dissipation: volume goes across the face with their speed times the step, and takes along what it contains. Of a
-/// smooth surface the step is of third order. Upwinding would have half the speed: that leaves some ripples.
+/// smooth surface the step is of third order; at edges, and where only one of both cells is compressed, it is none of
+/// ripples. Upwinding would have half the speed: that leaves some.
 void SharpInterface::level(const Faces& faces, Fields& fields, int k, std::int32_t face, double step, double dt) {
   constexpr double farthest = 0.25;    // across the section of either cell, in a step
   constexpr double most_taken = 0.25;  // of a volume, in a step through a face
+  constexpr double edge = 0.8;         // cosine of the angle between the normals
   const std::int32_t left = mesh_.left[face], right = mesh_.right[face];
-  double speed = 0, way = infinity;
+  double speed = infinity, way = infinity;
   for (const std::int32_t cell : {left, right}) {
     const Cell& c = cells_[k][cell];
     if (!valid(k, cell) || c.ring != 1) return;
     const Point along = cross(c.plane.n, Point{faces.nx[face], faces.ny[face], faces.nz[face]});
-    speed = std::max(speed, c.ripple_speed * length(along));
+    speed = std::min(speed, c.ripple_speed * length(along));
     way = std::min(way, farthest * extent(fields, k, cell));
   }
-  if (speed == 0 || step == 0) return;
+  if (speed == 0 || step == 0 || dot(cells_[k][left].plane.n, cells_[k][right].plane.n) < edge) return;
   int other = -1;
   for (int m = 0; m < fields.n_phases(); ++m) {
     if (m == k) continue;

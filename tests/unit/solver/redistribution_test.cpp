@@ -163,6 +163,13 @@ TEST_CASE("a tenth of a cell has no state to share: what hangs on it takes the m
   row.check({(1 - lent) * 1 + lent * q1, mean, mean, mean});
 }
 
+TEST_CASE("debris beyond a volume smaller than itself is no part of the body") {
+  Row row({0, 1, 2, 3}, {0.6, 0.01, 0.02}, {1, 2, 3});
+  const double q = (0.01 * 2 + 0.3 * 1) / 0.31;
+  CHECK(row.run().alone == 1);
+  row.check({(1 + q) / 2, q, 3});
+}
+
 TEST_CASE("a donor lends what brings a small volume to 0.55 of a cell: what nearly is that is hardly averaged") {
   Row row({0, 1, 2}, {0.4, 1}, {3, 1});
   const double q = (0.4 * 3 + 0.15 * 1) / 0.55;
