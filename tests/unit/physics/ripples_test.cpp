@@ -27,9 +27,10 @@ SolidState<G, double> stretched_block(double length, double height, double width
   return state;
 }
 
-/// mu (height^2 - most^2) less a hundredth of rho c_s^2 = mu height^2: closed form of incompressible neo-Hookean.
+/// mu (height^2 - most^2) less a hundredth of rho c_s^2 = mu height^2, at most 3 mu: closed form of incompressible
+/// neo-Hookean.
 double exact(double height, double most) {
-  return std::sqrt(neo_hookean.mu * std::max(0.0, height * height * (1 - 0.01) - most * most));
+  return std::sqrt(neo_hookean.mu * std::clamp(height * height * (1 - 0.01) - most * most, 0.0, 3.0));
 }
 
 Frame<Plane, double> surface(double angle) {  // normal y before the body is turned
