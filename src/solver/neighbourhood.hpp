@@ -129,8 +129,8 @@ struct Neighbourhood {
     }
     return other;
   }
-  /// Whether the phase is behind face j. The mirror image is where the phase touches the mirror: while a void is
-  /// between them, a body knows nothing of a wall.
+  /// Whether the phase is behind face j. Its mirror image is where it touches the mirror: of a wall that something else
+  /// lies before, a body knows nothing.
   Mask<Real> holds(int j) const {
     Mask<Real> there = gather<Real>(phase.alpha.data(), neighbour(j)) > Real(least_for_slopes);
     if (!phase.wetted[0].empty() && is_mirror_of_any(j)) {
