@@ -37,8 +37,8 @@ double SharpInterface::extent(const Fields& fields, int k, std::int32_t cell) co
 /// nothing flows along a surface at rest, no Riemann problem sees it, and ripples two to four cells long would grow
 /// where the surface is compressed along itself by a third. They are waves (ripple_speed), and this is their
 /// dissipation: volume goes across the face with their speed times the step, and takes along what it contains. Of a
-/// smooth surface the step is of third order; at edges, and where only one of both cells is compressed, it is none of
-/// ripples. Upwinding would have half the speed: that leaves some.
+/// smooth surface the step is of third order; at edges, where only one of both cells is compressed, and where they move
+/// apart faster than ripples do, it is none of ripples. Upwinding would have half the speed: that leaves some.
 void SharpInterface::level(const Faces& faces, Fields& fields, int k, std::int32_t face, double step, double dt) {
   constexpr double farthest = 0.25;    // across the section of either cell, in a step
   constexpr double most_taken = 0.25;  // of a volume, in a step through a face
@@ -47,12 +47,16 @@ void SharpInterface::level(const Faces& faces, Fields& fields, int k, std::int32
   double speed = infinity, way = infinity;
   for (const std::int32_t cell : {left, right}) {
     const Cell& c = cells_[k][cell];
-    if (!valid(k, cell) || c.ring != 1) return;
+    if (!valid(k, cell) || c.ring != 1 || borrows(k, cell)) return;  // a borrowed state is not what is there
     const Point along = cross(c.plane.n, Point{faces.nx[face], faces.ny[face], faces.nz[face]});
     speed = std::min(speed, c.ripple_speed * length(along));
     way = std::min(way, farthest * extent(fields, k, cell));
   }
   if (speed == 0 || step == 0 || dot(cells_[k][left].plane.n, cells_[k][right].plane.n) < edge) return;
+  const auto& state = fields.phases[k].primitive;
+  double slip = 0;  // squared
+  for (int d = 0; d < fields.dimension; ++d) slip += std::pow(state[1 + d][left] - state[1 + d][right], 2);
+  if (slip > speed * speed) return;
   int other = -1;
   for (int m = 0; m < fields.n_phases(); ++m) {
     if (m == k) continue;
@@ -60,6 +64,7 @@ void SharpInterface::level(const Faces& faces, Fields& fields, int k, std::int32
     const bool in_left = alpha[left] > 0, in_right = alpha[right] > 0;
     if (!in_left && !in_right) continue;
     if (other >= 0 || !in_left || !in_right) return;  // a third phase is near
+    if (borrows(m, left) || borrows(m, right)) return;
     other = m;
   }
   if (other < 0) return;

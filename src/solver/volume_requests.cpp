@@ -38,7 +38,6 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
     if (phase != k && alpha(phase, cell) > alpha(j, cell)) j = phase;
   const double own = alpha(k, cell), volume = own * fields.volume[cell];
 
-  const Phase& carrier = fields.phases[fields.phases[j].is_void ? k : j];
   std::int32_t donor = -1, richest = -1, ahead = -1;
   double most_ahead = 0;
   const auto better = [&](std::int32_t candidate, std::int32_t than) {
@@ -52,19 +51,23 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
     if (face >= mesh.first_boundary_face()) continue;
     const std::int32_t d = entry & 1 ? faces.left[face] : faces.right[face];
     if (d == cell) continue;
-    double flow = carrier.conserved[1][cell] * faces.nx[face] + carrier.conserved[2][cell] * faces.ny[face];
-    if (fields.dimension == 3) flow += carrier.conserved[3][cell] * faces.nz[face];
-    flow *= (entry & 1 ? -1 : 1) * faces.area[face];
-    if (flow > most_ahead) ahead = d, most_ahead = flow;
+    if (const Phase& carrier = fields.phases[j]; !carrier.is_void) {
+      double flow = carrier.conserved[1][cell] * faces.nx[face] + carrier.conserved[2][cell] * faces.ny[face];
+      if (fields.dimension == 3) flow += carrier.conserved[3][cell] * faces.nz[face];
+      flow *= (entry & 1 ? -1 : 1) * faces.area[face];
+      if (flow > most_ahead) ahead = d, most_ahead = flow;
+    }
     if (!(alpha(k, d) > own)) continue;
     if (better(d, richest)) richest = d;
-    if (!(alpha(k, d) > std::fabs(own)) || alpha(k, d) < dust_threshold) continue;  // it is about to leave d too
+    if (!(alpha(k, d) > std::fabs(own))) continue;
     if (forced && alpha(k, d) < least_to_give_) continue;  // what is inadmissible needs a healthy partner
     // a negative volume comes with the cell's own j: part of a tiny alpha_j in d would be more than all that is there
     const double left = volume < 0 ? alpha(k, d) : alpha(j, d) >= least_to_give_ ? alpha(j, d) : 0;
     if (has(left * fields.volume[d], std::fabs(volume), fields.volume[d]) && better(d, donor)) donor = d;
   }
   if (volume < 0 && !has(alpha(j, cell) * fields.volume[cell], -volume, fields.volume[cell])) donor = -1;
+  // dust is about to leave a donor that has no more than dust of the phase, where another neighbour has more
+  if (donor >= 0 && alpha(k, donor) < dust_threshold && alpha(k, richest) >= dust_threshold) donor = -1;
   // what stays behind where no neighbour has the phase any more follows it
   if (richest < 0) richest = ahead;
   const bool dust_only =

@@ -194,19 +194,6 @@ TEST_CASE("dust goes to a neighbour that is no dust, be that so full that it mus
   for (int c = 1; c <= 4; ++c) CHECK(after[c] == Approx(before[c]).epsilon(1e-15));
 }
 
-TEST_CASE("dust alone in a void moves on where it goes, and leaves no volume behind") {
-  Strip s({0, 1, 2, 3});
-  s.set(0.5, 0), s.set(1.5, 1e-15), s.set(2.5, 0);
-  s.fields.phases[liquid].is_void = true;
-  s.fields.phases[liquid].conserved.clear();
-  const double mass = s.fields.phases[solid].conserved[0][s.cell(1.5)];
-  s.run();
-  CHECK(s.alpha(solid, 1.5) == 0);
-  CHECK(s.fields.phases[solid].conserved[0][s.cell(1.5)] == 0);
-  CHECK(s.fields.phases[solid].conserved[0][s.cell(2.5)] == mass);
-  CHECK(s.alpha(solid, 2.5) == 0);
-}
-
 TEST_CASE("a negative volume fraction, from round-off, is filled up from the neighbour") {
   Strip s({0, 1, 2});
   s.set(0.5, 0.5), s.set(1.5, -3e-17);
