@@ -9,7 +9,6 @@
 namespace cobasis {
 namespace {
 
-constexpr double least_donor = 0.1;      ///< what is small itself has no state to share: waves cross it as often
 constexpr double small_fraction = 0.55;  ///< below this volume fraction a phase is averaged
 /// A negative volume may take away so much of the neighbour's share that their mean means nothing. The sum of both must
 /// exceed this part of the sum of magnitudes: then the mean leaves the range of the two states by half their difference
@@ -45,7 +44,7 @@ std::int32_t neighbour_at(const Mesh& mesh, const Faces& faces, std::int32_t cel
 
 Redistribution::Redistribution(const Mpi& mpi, const Mesh& mesh, const Fields& fields)
     : mpi_(mpi),
-      remote_(mpi, mesh, fields, least_donor),
+      remote_(mpi, mesh, fields),
       alpha_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases(), 0), 16),
       choices_(mpi, mesh.neighbours, capacities(mesh, choice_size * fields.n_phases(), 0), 17),
       shares_(mpi, mesh.neighbours,
@@ -312,6 +311,7 @@ void Redistribution::run(const Mesh& mesh, const Faces& faces, Fields& fields,
     for (const std::int32_t cell : candidates) {
       const double alpha = phase.alpha[cell];
       if (alpha == 0 || !(alpha < small_fraction)) continue;
+      const double least_donor = RemoteVolumes::least_root(mesh.cell_type[cell]);
       const bool tiny = std::fabs(alpha) <= least_donor;
       if (tiny) small_.emplace_back(cell, k);
       if (choose(mesh, faces, fields, k, cell, std::max(least_donor, std::fabs(alpha)))) {

@@ -17,9 +17,12 @@ std::vector<std::size_t> capacities(const Mesh& mesh, std::size_t per_cell) {
 
 }  // namespace
 
-RemoteVolumes::RemoteVolumes(const Mpi& mpi, const Mesh& mesh, const Fields& fields, double least_root)
-    : least_root_(least_root),
-      exchange_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases() * (4 + most_components)), 19),
+double RemoteVolumes::least_root(CellType type) {
+  return type == CellType::triangle || type == CellType::tetrahedron ? 0.1 : 0.03;
+}
+
+RemoteVolumes::RemoteVolumes(const Mpi& mpi, const Mesh& mesh, const Fields& fields)
+    : exchange_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases() * (4 + most_components)), 19),
       at_(fields.n_phases(), std::vector<std::int32_t>(mesh.n_cells(), -1)) {}
 
 RemoteVolumes::Node& RemoteVolumes::node_of(int k, std::int32_t cell) {
@@ -88,7 +91,7 @@ void RemoteVolumes::grow(const Mesh& mesh, const Faces& faces, const Fields& fie
     std::int32_t parent = -1;
     for_each_neighbour(mesh, faces, node.cell, [&](std::int32_t other) {
       if (level == 1) {
-        if (!(alpha[other] > least_root_)) return;
+        if (!(alpha[other] > least_root(mesh.cell_type[node.cell]))) return;
       } else {
         const Node* const there = find(node.k, other);
         if (!there || there->level != level - 1 || !(alpha[other] >= std::fabs(alpha[node.cell]))) return;

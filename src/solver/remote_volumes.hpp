@@ -23,7 +23,11 @@ class RemoteVolumes {
  public:
   static constexpr int deepest = 4;
 
-  RemoteVolumes(const Mpi& mpi, const Mesh& mesh, const Fields& fields, double least_root);
+  RemoteVolumes(const Mpi& mpi, const Mesh& mesh, const Fields& fields);
+
+  /// What is small itself has no state to share. In fans of simplices many volumes are small alike, and waves cross a
+  /// tenth of a cell as often as what hangs on it, which grows its own errors there.
+  static double least_root(CellType type);
 
   /// `small`: (owned cell, phase) with a volume fraction that is not 0 and at most `least_root`; volume fractions of
   /// the halo must be known. Collective. The same bits for any partition. Returns how many hang on no root.
@@ -53,7 +57,6 @@ class RemoteVolumes {
   void grow(const Mesh& mesh, const Faces& faces, const Fields& fields, int level);
   void collect(const Mesh& mesh, const Faces& faces, const Fields& fields, Node& parent);
 
-  double least_root_;
   NeighbourExchange exchange_;
   std::vector<std::vector<std::int32_t>> at_;  // [phase][cell]: in nodes_; all -1 between runs
   std::vector<Node> nodes_;                    // of owned and of halo cells
