@@ -66,8 +66,8 @@ void VolumeExchange::request(const Mesh& mesh, const Faces& faces, const Fields&
     if (has(left * fields.volume[d], std::fabs(volume), fields.volume[d]) && better(d, donor)) donor = d;
   }
   if (volume < 0 && !has(alpha(j, cell) * fields.volume[cell], -volume, fields.volume[cell])) donor = -1;
-  // dust is about to leave a donor that has no more than dust of the phase, where another neighbour has more
-  if (donor >= 0 && alpha(k, donor) < dust_threshold && alpha(k, richest) >= dust_threshold) donor = -1;
+  // dust is about to leave a donor that has no more than dust of the phase: a body beside it takes it
+  if (donor >= 0 && alpha(k, donor) < dust_threshold && alpha(k, richest) >= least_to_give_) donor = -1;
   // what stays behind where no neighbour has the phase any more follows it
   if (richest < 0) richest = ahead;
   const bool dust_only =
