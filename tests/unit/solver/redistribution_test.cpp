@@ -146,11 +146,10 @@ TEST_CASE("a cell that is neither small nor chosen keeps its bits, and so does a
 }
 
 TEST_CASE("a chain of ever smaller volumes: each is averaged with the next larger one") {
-  // volumes of the phase 1.2, 0.3, 0.15, 0.02, of which 0.55 of a cell misses 0, 0.25, 0.4, 0.53
-  Row row({0, 2, 3, 4, 5}, {0.6, 0.3, 0.15, 0.02}, {1, 2, 5, 40});
+  // volumes of the phase 1.2, 0.3, 0.1, 0.02, of which 0.55 of a cell misses 0, 0.25, 0.45, 0.53
+  Row row({0, 2, 3, 4, 5}, {0.6, 0.3, 0.1, 0.02}, {1, 2, 5, 40});
   const double lent = 0.25 / 1.2;  // by the first; the others then lend half of what they have become
-  const double q1 = (0.3 * 2 + 0.25 * 1) / 0.55, q2 = (0.075 * 5 + 0.15 * q1) / 0.225,
-               q3 = (0.02 * 40 + 0.075 * 5) / 0.095;
+  const double q1 = (0.3 * 2 + 0.25 * 1) / 0.55, q2 = (0.05 * 5 + 0.15 * q1) / 0.2, q3 = (0.02 * 40 + 0.05 * 5) / 0.07;
   CHECK(row.run().merged == 3);
   row.check({(1 - lent) * 1 + lent * q1, (q1 + q2) / 2, (q2 + q3) / 2, q3});
 }
