@@ -44,12 +44,14 @@ SharpInterface::SharpInterface(const Mpi& mpi, const Mesh& mesh, const Faces& fa
             });
   for (int k = 0; k < n; ++k)
     if (fields.phases[k].is_void || (n == 2 && k == 1 && rest_ < 0 && !fields.phases[0].is_void)) rest_ = k;
+  before_void_ = rest_ >= 0 && fields.phases[rest_].is_void;
   for (int k = 0; k < n; ++k) {
     if (k != rest_) planes_of_.push_back(k), cells_[k].resize(mesh.n_cells());
     Phase& phase = fields.phases[k];
     for (auto& side : phase.wetted) side.assign(faces.area.size(), 0);
     if (levels_) phase.levelling.assign(faces.area.size(), 0);
     health_.emplace_back(mesh.n_cells(), 0);
+    entered_.emplace_back(mesh.n_cells(), 1);
     borrowed_.emplace_back(mesh.n_cells(), -1);
     if (phase.is_void) continue;
     if (shares_planes_ && setup.scheme.order == 2) {
@@ -93,11 +95,32 @@ SharpInterface::SharpInterface(const Mpi& mpi, const Mesh& mesh, const Faces& fa
     }
 }
 
-void SharpInterface::exchange_blends() {
+void SharpInterface::exchange_for_faces() {
   exchange_cells(exchange_, mesh_.neighbours, [&](std::int32_t cell, const auto& with) {
     for (const int k : planes_of_)
       if (valid(k, cell) && cells_[k][cell].ring == -1) with(cells_[k][cell].blend);
+    if (!before_void_ || !knows_plane(cell)) return;
+    for (const int k : planes_of_) with(entered_[k][cell]);
   });
+}
+
+/// Whether a phase that is absent from the cell comes into it within the step: where a neighbour that has more than
+/// dust of it moves this way, and has some of it at the face. What touched the cell's other faces without that would
+/// get volume from a void, but no mass. Other phases do not give way for nothing; beside them any phase may come.
+void SharpInterface::find_entered(const Faces& faces, const Fields& fields, std::int32_t cell, double dt) {
+  for (const int k : planes_of_) {
+    const Phase& phase = fields.phases[k];
+    std::int8_t& entered = entered_[k][cell];
+    entered = phase.alpha[cell] > 0;
+    for_each_face(cell, [&](std::int32_t f, int side) {
+      if (entered || f >= mesh_.first_boundary_face()) return;
+      const std::int32_t other = side == 0 ? mesh_.right[f] : mesh_.left[f];
+      if (!(phase.alpha[other] > 0) || borrows(k, other)) return;
+      double in = phase.primitive[1][other] * faces.nx[f] + phase.primitive[2][other] * faces.ny[f];
+      if (fields.dimension == 3) in += phase.primitive[3][other] * faces.nz[f];
+      entered = (side == 0 ? in < 0 : in > 0) && side_fraction(fields, k, f, 1 - side, dt) > 0;
+    });
+  }
 }
 
 bool SharpInterface::knows_plane(std::int32_t cell) const {
@@ -202,7 +225,9 @@ void SharpInterface::wet_face(const Faces& faces, Fields& fields, std::int32_t f
     const bool in_left = phase.alpha[left] > 0, in_right = phase.alpha[right] > 0;
     if (phase.is_void || wetted(k) == 0 || (in_left && in_right)) continue;
     // From one empty cell to the next it comes within a step only where planes leave no doubt of it.
-    if (in_left == in_right && agree && has_state(fields, k, left) && has_state(fields, k, right)) continue;
+    if (in_left == in_right && agree && (entered_[k][left] || entered_[k][right]) && has_state(fields, k, left) &&
+        has_state(fields, k, right))
+      continue;
     const std::int32_t present = in_left ? left : right;
     double un = phase.primitive[1][present] * faces.nx[face] + phase.primitive[2][present] * faces.ny[face];
     if (fields.dimension == 3) un += phase.primitive[3][present] * faces.nz[face];
@@ -241,7 +266,10 @@ void SharpInterface::wet(const Faces& faces, Fields& fields, double dt) {
     for (const std::int32_t cell : mixed_cells_)
       if (is_cut(fields, k, cell)) cells_[k][cell].blend = blend_of(fields, k, cell, dt);
   }
-  exchange_blends();
+  for (const auto* cells : {&cut_cells_, &mixed_cells_, &frontier_})
+    for (const std::int32_t cell : *cells)
+      if (before_void_) find_entered(faces, fields, cell, dt);
+  exchange_for_faces();
   const auto faces_of = [&](std::int32_t cell) { for_each_face(cell, [&](std::int32_t f, int) { consider(f); }); };
   for (const auto* cells : {&cut_cells_, &mixed_cells_, &frontier_})
     for (const std::int32_t cell : *cells) faces_of(cell);

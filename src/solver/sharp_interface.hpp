@@ -76,7 +76,8 @@ class SharpInterface {
   void exchange_moments();
   Point fitted_normal(int k, std::int32_t cell) const;
   void exchange(Fields& fields);
-  void exchange_blends();
+  void find_entered(const Faces& faces, const Fields& fields, std::int32_t cell, double dt);
+  void exchange_for_faces();
   /// Whether what lies where in a cell counts: at second order.
   bool knows_centres(const Fields& fields) const { return fields.phases[planes_of_[0]].centre.stride != 0; }
   template <class Part, class Place>
@@ -119,6 +120,7 @@ class SharpInterface {
   std::vector<PairKernels> pairs_;
   std::vector<int> planes_of_;                              // phases that have planes
   int rest_ = -1;                                           // the phase that takes what they leave; -1: none
+  bool before_void_ = false;                                // whether that is a void
   std::vector<std::vector<Cell>> cells_;                    // [phase][owned and halo cell]
   std::vector<CellCorners> corners_;                        // of owned cells that were cut once
   std::vector<std::int32_t> corners_at_;                    // where in corners_; -1: not yet
@@ -134,7 +136,8 @@ class SharpInterface {
   std::vector<std::int32_t> moment_cells_;       // owned cells that gather
   std::vector<ContactList> contacts_;            // [l * n + m], l < m, the void last
   std::vector<std::vector<std::pair<std::int32_t, int>>> speed_users_;
-  std::vector<std::vector<std::int8_t>> health_;  // [phase][cell]: see find_health
+  std::vector<std::vector<std::int8_t>> health_;   // [phase][cell]: see find_health
+  std::vector<std::vector<std::int8_t>> entered_;  // [phase][cell]: see find_entered
   std::vector<std::vector<std::int64_t>>
       borrowed_;                         // [phase][cell]: the last stage in which it took another cell's state
   std::vector<std::int32_t> following_;  // cells of the present followers

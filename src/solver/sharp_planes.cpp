@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mesh/geometry.hpp"
+#include "solver/remote_volumes.hpp"
 #include "solver/sharp_interface.hpp"
 
 namespace cobasis {
@@ -16,7 +17,7 @@ constexpr int rings = 3;          ///< of cells around the cut ones that know th
 
 /// How near a cell is, over cells with the phase, to one that is half full of it; 0: farther than `reach` cells. What
 /// has nobody to share its state with is a film or a splinter thinner than a cell: a plane there would let waves cross
-/// it faster than the step can follow.
+/// it faster than the step can follow. What is less than it, and small, it cannot share with: see RemoteVolumes.
 void SharpInterface::find_health(Fields& fields) {
   const int reach = hops_ == 1 ? 3 : hops_ == 2 ? 4 : 6;
   for (int k = 0; k < fields.n_phases(); ++k) {
@@ -29,10 +30,11 @@ void SharpInterface::find_health(Fields& fields) {
       const auto& alpha = fields.phases[k].alpha;
       for (const std::int32_t cell : cut_cells_) {
         if (health_[k][cell] > 0) continue;
+        const double least = std::min(alpha[cell], RemoteVolumes::least_root(mesh_.cell_type[cell]));
         for_each_face(cell, [&](std::int32_t f, int side) {
           if (f >= mesh_.first_boundary_face()) return;
           const std::int32_t other = side == 0 ? mesh_.right[f] : mesh_.left[f];
-          if (alpha[other] > 0 && health_[k][other] == reach + 2 - distance)
+          if (alpha[other] > 0 && alpha[other] >= least && health_[k][other] == reach + 2 - distance)
             health_[k][cell] = static_cast<std::int8_t>(reach + 1 - distance);
         });
       }

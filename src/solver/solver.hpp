@@ -17,6 +17,7 @@
 #include "solver/interfaces.hpp"
 #include "solver/keeper.hpp"
 #include "solver/kernels.hpp"
+#include "solver/orphans.hpp"
 #include "solver/reconstruction.hpp"
 #include "solver/redistribution.hpp"
 #include "solver/relaxation.hpp"
@@ -148,6 +149,7 @@ class Solver {
   std::optional<SharpInterface> sharp_;
   std::optional<Redistribution> redistribution_;  // of sharp interfaces
   std::optional<VolumeExchange> exchange_;
+  std::optional<Orphans> orphans_;  // of sharp interfaces
   std::optional<Caution> caution_;
   std::unique_ptr<NeighbourExchange> halo_;
 

@@ -154,6 +154,7 @@ Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
   const bool sharp = setup_.scheme.interface == InterfaceTreatment::sharp;
   if (fields_.multiphase() && setup_.scheme.interface != InterfaceTreatment::diffuse) {
     sharp_.emplace(mpi_, mesh_, faces_, fields_, setup_, kernels_, pair_kernels_, boundaries_);
+    orphans_.emplace(mpi_, mesh_, fields_);
     if (sharp) redistribution_.emplace(mpi_, mesh_, fields_);
   }
   if (fields_.multiphase() && setup_.alpha_min == 0)

@@ -77,7 +77,7 @@ class Tube:
                     Row("amplitude lost per period [%]", ", ".join(f"{100 * m[2]:.1f}" for m in measured), "0", "—"),
                 ]
             axis.set_title(f"{speed:g} m/s at 1 m", fontsize=8)
-            axis.set_ylim(-0.05, 1.1)  # a splinter may have more, for an instant
+            axis.set_ylim(-0.05, 1.1)
         axes[0].set_ylabel("kinetic energy over the first", fontsize=8)
         axes[0].legend(fontsize=6)
         save(figure, results.picture("tube"), "time [s]")
