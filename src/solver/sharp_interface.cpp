@@ -44,6 +44,7 @@ SharpInterface::SharpInterface(const Mpi& mpi, const Mesh& mesh, const Faces& fa
             });
   for (int k = 0; k < n; ++k)
     if (fields.phases[k].is_void || (n == 2 && k == 1 && rest_ < 0 && !fields.phases[0].is_void)) rest_ = k;
+  most_surface_ = std::max(1.0, 0.9 / setup.cfl);
   before_void_ = rest_ >= 0 && fields.phases[rest_].is_void;
   for (int k = 0; k < n; ++k) {
     if (k != rest_) planes_of_.push_back(k), cells_[k].resize(mesh.n_cells());
@@ -140,19 +141,29 @@ double SharpInterface::side_fraction(const Fields& fields, int k, std::int32_t f
   return wetted_fraction(outlines_[face], center, c.plane, shift);
 }
 
-/// Waves cross a phase within a step where its share of a face exceeds its volume fraction by far. A cell that has
-/// nobody to share such a state with keeps to `most_excess` times the fraction, of every phase; all its faces are
-/// blended alike, so that the interface in the cell keeps its direction.
+/// A cell that has nobody to share its state with bears only so much surface: its pressure follows from what all its
+/// faces and contacts do in a step, and overshoots where they are more than 1 / cfl of those that the paper's scheme
+/// gives it, a part alpha of each face. So of every material; of a void no face may take more than twice its part, as
+/// more might flow in than there is room. All faces are blended alike: the interface in the cell keeps its direction.
 double SharpInterface::blend_of(const Fields& fields, int k, std::int32_t cell, double dt) const {
-  constexpr double most_excess = 2;
+  constexpr double most_of_void = 2;
   if (!fields.cautious.empty() && fields.cautious[cell] > 0) return 0;
   const double alpha = fields.phases[k].alpha[cell];
-  double blend = 1;
+  double surface = 0, wet = 0, blend = 1;
   for_each_face(cell, [&](std::int32_t f, int side) {
-    const double excess = side_fraction(fields, k, f, side, dt) - alpha;
-    if (excess > 0) blend = std::min(blend, (most_excess - 1) * alpha / excess);
-    if (excess < 0) blend = std::min(blend, (most_excess - 1) * (1 - alpha) / -excess);
+    const double share = side_fraction(fields, k, f, side, dt);
+    surface += mesh_.area[f];
+    wet += share * mesh_.area[f];
+    if (share < alpha) blend = std::min(blend, (most_of_void - 1) * (1 - alpha) / (alpha - share));
   });
+  const double section = cells_[k][cell].cut.area;
+  const auto bear = [&](double part, double planes) {
+    const double excess = planes + section - part * surface;
+    if (excess > 0) blend = std::min(blend, (most_surface_ - 1) * part * surface / excess);
+  };
+  bear(alpha, wet);
+  const double empty = before_void_ ? fields.phases[rest_].alpha[cell] : 0;
+  if (alpha + empty < 1) bear(1 - alpha, surface - wet);
   return blend;
 }
 
