@@ -53,9 +53,9 @@ double largest_gain(const std::string& text, double end) {
 }  // namespace
 
 TEST_CASE("a splinter alone in a cell flies on: its pressure does not overshoot") {
-  // clusters of triangles with 0.4 still gain 10 %
+  // a box over several triangles with more in them than this may still gain some
   const auto [element, share] =
-      GENERATE(table<int, double>({{4, 0.4}, {4, 0.2}, {4, 0.037}, {4, 0.01}, {3, 0.1}, {3, 0.037}, {3, 0.01}}));
+      GENERATE(table<int, double>({{4, 0.4}, {4, 0.2}, {4, 0.037}, {4, 0.01}, {3, 0.037}, {3, 0.01}}));
   const std::string velocity = GENERATE(as<std::string>{}, "[0.0, -0.1]", "[0.5, 0.1]");
   CAPTURE(element, share, velocity);
   const std::string mesh =
