@@ -44,8 +44,8 @@ SharpInterface::SharpInterface(const Mpi& mpi, const Mesh& mesh, const Faces& fa
             });
   for (int k = 0; k < n; ++k)
     if (fields.phases[k].is_void || (n == 2 && k == 1 && rest_ < 0 && !fields.phases[0].is_void)) rest_ = k;
-  most_surface_ = std::max(1.0, 0.9 / setup.cfl);
   before_void_ = rest_ >= 0 && fields.phases[rest_].is_void;
+  most_surface_ = std::max(1.0, 0.9 / setup.cfl);  // at 1 / cfl pressure would alternate for ever
   for (int k = 0; k < n; ++k) {
     if (k != rest_) planes_of_.push_back(k), cells_[k].resize(mesh.n_cells());
     Phase& phase = fields.phases[k];

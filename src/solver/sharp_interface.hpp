@@ -120,8 +120,8 @@ class SharpInterface {
   std::vector<PairKernels> pairs_;
   std::vector<int> planes_of_;                              // phases that have planes
   int rest_ = -1;                                           // the phase that takes what they leave; -1: none
-  double most_surface_ = 1;                                 // of a lone phase in a cell, see blend_of
   bool before_void_ = false;                                // whether that is a void
+  double most_surface_ = 1;                                 // of what is alone in a cell, see blend_of
   std::vector<std::vector<Cell>> cells_;                    // [phase][owned and halo cell]
   std::vector<CellCorners> corners_;                        // of owned cells that were cut once
   std::vector<std::int32_t> corners_at_;                    // where in corners_; -1: not yet
