@@ -5,6 +5,12 @@
 
 namespace cobasis {
 
+std::vector<std::size_t> halo_capacities(const std::vector<Neighbour>& neighbours, std::size_t per_cell) {
+  std::vector<std::size_t> values;
+  for (const Neighbour& n : neighbours) values.push_back(per_cell * n.receive_count);
+  return values;
+}
+
 NeighbourExchange::NeighbourExchange(const Mpi& mpi, const std::vector<Neighbour>& neighbours,
                                      std::vector<std::size_t> max_values, int tag)
     : comm_(mpi.comm()),

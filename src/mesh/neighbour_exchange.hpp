@@ -10,6 +10,9 @@
 
 namespace cobasis {
 
+/// The most values that may come from each neighbour, of its halo cells.
+std::vector<std::size_t> halo_capacities(const std::vector<Neighbour>& neighbours, std::size_t per_cell);
+
 class NeighbourExchange {
  public:
   /// `max_values[n]`: the most doubles that may come from neighbour n in one message; `tag` tells exchanges apart.

@@ -8,16 +8,10 @@ namespace {
 constexpr int first_rings = 2;         ///< of neighbours around a cell noted
 constexpr std::int64_t duration = 20;  ///< [steps]
 
-std::vector<std::size_t> one_per_cell(const Mesh& mesh) {
-  std::vector<std::size_t> values;
-  for (const Neighbour& neighbour : mesh.neighbours) values.push_back(neighbour.receive_count);
-  return values;
-}
-
 }  // namespace
 
 Caution::Caution(const Mpi& mpi, const Mesh& mesh)
-    : until_(mesh.n_cells(), 0), exchange_(mpi, mesh.neighbours, one_per_cell(mesh), 19) {}
+    : until_(mesh.n_cells(), 0), exchange_(mpi, mesh.neighbours, halo_capacities(mesh.neighbours, 1), 19) {}
 
 void Caution::spread(const Mesh& mesh, std::int64_t step, int failed) {
   const std::int64_t until = step + duration;

@@ -18,8 +18,9 @@ class Orphans {
  public:
   Orphans(const Mpi& mpi, const Mesh& mesh, const Fields& fields);
 
-  /// Those of `fragments`, (owned cell, phase), with no neighbour in which the phase has a state of its own: at least
-  /// the volume fraction `least`, and no fragment. All the fragments of this rank are given. Collective.
+  /// Those of `fragments`, (owned cell, phase), of at least the volume fraction `least`, with no neighbour in which the
+  /// phase has a state of its own: as much of it, and no fragment. All the fragments of this rank are given.
+  /// Collective.
   const std::vector<std::pair<std::int32_t, int>>& find(const Mesh& mesh, const Faces& faces, const Fields& fields,
                                                         std::span<const std::pair<std::int32_t, int>> fragments,
                                                         double least);
@@ -27,7 +28,8 @@ class Orphans {
  private:
   const Mpi& mpi_;
   NeighbourExchange exchange_;
-  std::vector<std::vector<std::int8_t>> sound_;  // [phase][owned and halo cell]: has a state of its own
+  std::vector<std::vector<std::int8_t>> is_fragment_;    // [phase][owned cell]; all false between calls
+  std::vector<std::vector<std::int8_t>> sound_in_halo_;  // [phase][halo cell]: has a state of its own
   std::vector<std::pair<std::int32_t, int>> found_;
 };
 

@@ -9,12 +9,6 @@ namespace {
 /// Negative volumes may take away so much of a root that the mean means nothing.
 constexpr double least_of_root = 0.5;
 
-std::vector<std::size_t> capacities(const Mesh& mesh, std::size_t per_cell) {
-  std::vector<std::size_t> values;
-  for (const Neighbour& n : mesh.neighbours) values.push_back(per_cell * n.receive_count);
-  return values;
-}
-
 }  // namespace
 
 double RemoteVolumes::least_root(CellType type) {
@@ -22,7 +16,7 @@ double RemoteVolumes::least_root(CellType type) {
 }
 
 RemoteVolumes::RemoteVolumes(const Mpi& mpi, const Mesh& mesh, const Fields& fields)
-    : exchange_(mpi, mesh.neighbours, capacities(mesh, fields.n_phases() * (4 + most_components)), 19),
+    : exchange_(mpi, mesh.neighbours, halo_capacities(mesh.neighbours, fields.n_phases() * (4 + most_components)), 19),
       at_(fields.n_phases(), std::vector<std::int32_t>(mesh.n_cells(), -1)) {}
 
 RemoteVolumes::Node& RemoteVolumes::node_of(int k, std::int32_t cell) {

@@ -10,12 +10,6 @@
 namespace cobasis {
 namespace {
 
-std::vector<std::size_t> capacities(const Mesh& mesh, std::size_t per_cell) {
-  std::vector<std::size_t> values;
-  for (const Neighbour& n : mesh.neighbours) values.push_back(per_cell * n.receive_count);
-  return values;
-}
-
 std::size_t numbers_per_cell(const Fields& fields) {
   std::size_t states = 0;
   for (const Phase& phase : fields.phases) states += phase.conserved.size() + phase.primitive.size();
@@ -36,7 +30,7 @@ SharpInterface::SharpInterface(const Mpi& mpi, const Mesh& mesh, const Faces& fa
       face_radius_(mesh.n_faces()),
       is_transmissive_(mesh.n_boundary_faces),
       is_symmetry_(mesh.n_boundary_faces),
-      exchange_(mpi, mesh.neighbours, capacities(mesh, numbers_per_cell(fields)), 16),
+      exchange_(mpi, mesh.neighbours, halo_capacities(mesh.neighbours, numbers_per_cell(fields)), 16),
       shares_planes_(setup.scheme.interface == InterfaceTreatment::sharp) {
   const int n = fields.n_phases();
   levels_ = shares_planes_ && std::ranges::any_of(fields.phases, [](const Phase& phase) {
@@ -277,9 +271,9 @@ void SharpInterface::wet(const Faces& faces, Fields& fields, double dt) {
     for (const std::int32_t cell : mixed_cells_)
       if (is_cut(fields, k, cell)) cells_[k][cell].blend = blend_of(fields, k, cell, dt);
   }
-  for (const auto* cells : {&cut_cells_, &mixed_cells_, &frontier_})
-    for (const std::int32_t cell : *cells)
-      if (before_void_) find_entered(faces, fields, cell, dt);
+  if (before_void_)
+    for (const auto* cells : {&cut_cells_, &mixed_cells_, &frontier_})
+      for (const std::int32_t cell : *cells) find_entered(faces, fields, cell, dt);
   exchange_for_faces();
   const auto faces_of = [&](std::int32_t cell) { for_each_face(cell, [&](std::int32_t f, int) { consider(f); }); };
   for (const auto* cells : {&cut_cells_, &mixed_cells_, &frontier_})

@@ -164,9 +164,7 @@ Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
 
   std::size_t per_cell = fields_.multiphase() ? fields_.n_phases() : 0;
   for (const Phase& phase : fields_.phases) per_cell += phase.n_conserved();
-  std::vector<std::size_t> capacity;
-  for (const Neighbour& neighbour : mesh_.neighbours) capacity.push_back(per_cell * neighbour.receive_count);
-  halo_ = std::make_unique<NeighbourExchange>(mpi_, mesh_.neighbours, capacity, 10);
+  halo_ = std::make_unique<NeighbourExchange>(mpi_, mesh_.neighbours, halo_capacities(mesh_.neighbours, per_cell), 10);
 }
 
 void Solver::allocate() {

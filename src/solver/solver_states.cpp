@@ -167,7 +167,7 @@ void Solver::convert_owned(double dt) {
   followed_ += static_cast<std::int64_t>(followers_.size());
   if (!sharp_) return;
   for (const auto& [cell, k] : orphans_->find(mesh_, faces_, fields_, followers_, without_state))
-    if (fields_.phases[k].alpha[cell] >= without_state) note_troubled(cell, k);
+    note_troubled(cell, k);
   // Of all cells, whether the step touched them or not: so do the ranks that see them as their halo.
   for (int k = 0; k < fields_.n_phases(); ++k) {
     if (fields_.phases[k].is_void) continue;

@@ -33,4 +33,5 @@ TEST_CASE("orphans are the fragments with no neighbour that has a state of its o
   CHECK(find({{cell[1], 1}, {cell[2], 1}}) == Volumes{{cell[2], 1}});  // what is next to it is no better
   CHECK(find({{cell[4], 1}}) == Volumes{{cell[4], 1}});
   CHECK(find({{cell[7], 1}}) == Volumes{{cell[7], 1}});  // beside it is dust
+  CHECK(find({{cell[6], 1}}).empty());                   // which is too little to count
 }
