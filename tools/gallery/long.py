@@ -38,48 +38,61 @@ def spread_of(periods, unit, digits):
 
 
 class Tube:
-    """Energy over time, period and loss per period for three speeds on a sequence of meshes."""
+    """Energy over time, period and loss per period for three speeds on a sequence of meshes, in the cross section of the
+    tube and in its meridian plane."""
 
     name = "tube"
     EXACT = {0.05: 4.2707, 0.5: 4.2269, 1: 4.0991}
+    # Case: what it is called; the component of the momentum that is zero at ends of swings.
+    PLANES = {"breathing_tube": ("", "x"), "breathing_tube_axisymmetric": (", axisymmetric", "y")}
 
     def __init__(self):
         self.sizes = {}
 
     def runs(self, quick):
-        self.sizes = {4: [0.2, 0.1], 3: [0.2]} if quick else {4: [0.2, 0.1, 0.05], 3: [0.2, 0.1]}
-        for speed in self.EXACT:
-            components = ", ".join(f'"{speed}*{axis}/(x^2+y^2)"' for axis in "xy")
-            for element, sizes in self.sizes.items():
-                for h in sizes:
-                    yield Run(f"tube_{element}_{speed}_{h}", "breathing_tube",
-                              {"mesh_parameters": f"{{ h = {h}, element = {element} }}",
-                               "region.1.velocity": f"[{components}]", "output.count": 1})
+        self.sizes = {4: [0.2, 0.1], 3: [0.2]} if quick else {4: [0.2, 0.1, 0.05], 3: [0.2, 0.1, 0.05]}
+        for case in self.PLANES:
+            for speed in self.EXACT:
+                for element, sizes in self.sizes.items():
+                    for h in sizes:
+                        yield Run(f"{case}_{element}_{speed}_{h}", case, self.settings(case, speed, element, h))
+
+    def settings(self, case, speed, element, h):
+        components, mesh = [f"{speed}*{axis}/(x^2+y^2)" for axis in "xy"], f"h = {h}"
+        if case == "breathing_tube_axisymmetric":
+            components, mesh = ["0", f"{speed}/y"], f"length = {4 * h}, height = 2.5, n = 4"
+        velocity = ", ".join(f'"{component}"' for component in components)
+        return {"mesh_parameters": f"{{ {mesh}, element = {element} }}", "region.1.velocity": f"[{velocity}]",
+                "output.count": 1}
 
     def draw(self, results):
         rows = []
-        figure, axes = new_figure(len(self.EXACT), 3, 3.4, 2.6)
-        for axis, (speed, exact) in zip(axes, self.EXACT.items()):
+        figure, axes = new_figure(2 * len(self.EXACT), 3, 3.4, 2.4)
+        panels = [(case, speed) for case in self.PLANES for speed in self.EXACT]
+        for axis, (case, speed) in zip(axes, panels):
+            words, component = self.PLANES[case]
             for element, sizes in self.sizes.items():
                 measured = []
                 for h, colour in zip(sizes, COLOURS):
-                    if not results.good(f"tube_{element}_{speed}_{h}"):
+                    run = f"{case}_{element}_{speed}_{h}"
+                    if not results.good(run):
                         continue
-                    history = columns(os.path.join(results.directory(f"tube_{element}_{speed}_{h}"), "history.csv"))
+                    history = columns(os.path.join(results.directory(run), "history.csv"))
                     time, kinetic = history["time"], history["kinetic.rubber"]
-                    measured.append((h, *measure_swings(time, history["momentum.rubber.x"], kinetic, 1)))
+                    measured.append((h, *measure_swings(time, history[f"momentum.rubber.{component}"], kinetic, 1)))
                     axis.plot(time, kinetic / kinetic[0], "-" if element == 4 else ":", color=colour, linewidth=1,
                               label=f"{WORDS[element]}, {h:g} m")
-                name = f"tube, {speed:g} m/s, {WORDS[element]} of {', '.join(f'{m[0]:g}' for m in measured)} m"
+                name = f"tube{words}, {speed:g} m/s, {WORDS[element]} of {', '.join(f'{m[0]:g}' for m in measured)} m"
                 rows += [
                     Row(f"{name}: period [s], mean (least to largest)",
-                        ", ".join(spread_of(m[1], 1, 3) for m in measured), f"{exact}", "—"),
-                    Row("amplitude lost per period [%]", ", ".join(f"{100 * m[2]:.1f}" for m in measured), "0", "—"),
+                        ", ".join(spread_of(m[1], 1, 3) for m in measured), f"{self.EXACT[speed]}", "—"),
+                    Row("amplitude lost per period [%]", ", ".join(f"{100 * m[2]:.2g}" for m in measured), "0", "—"),
                 ]
-            axis.set_title(f"{speed:g} m/s at 1 m", fontsize=8)
+            axis.set_title(f"{speed:g} m/s at 1 m{words}", fontsize=8)
             axis.set_ylim(-0.05, 1.1)
-        axes[0].set_ylabel("kinetic energy over the first", fontsize=8)
-        axes[0].legend(fontsize=6)
+        for axis in (axes[0], axes[3]):
+            axis.set_ylabel("kinetic energy over the first", fontsize=8)
+        axes[0].legend(fontsize=5)
         save(figure, results.picture("tube"), "time [s]")
         return rows
 

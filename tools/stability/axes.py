@@ -4,8 +4,9 @@ import math
 
 from stability.case import AIR, ALUMINIUM, CLOSED, COPPER, EVERYWHERE, FASTEST, OPEN, WATER
 from stability.case import case, filled, gas, liquid
-from stability.strip import strip_of
+from stability.strip import graded, leaning, shaken, strip_of
 
+OWN_MESH = 'mesh = "strip.msh"'  # the axis says what is in it
 SOUND = math.sqrt(1.4e5)  # of a gas with gamma 1.4 at 1e5 Pa and 1 kg/m^3 [m/s]
 
 
@@ -36,14 +37,14 @@ def density_ratio(grid, order, ratio):
     return case(grid.strip(), order, 0.5 / SOUND, phases, regions)
 
 
-def impact(grid, order, speed, elastic="", aspect=1.0, end_time=None, cfl=0.8):
+def impact(grid, order, speed, elastic="", mesh=None, end_time=None, cfl=0.8):
     phases = {"copper": COPPER, "aluminium": ALUMINIUM + elastic}
     regions = [
         filled(EVERYWHERE, "aluminium", grid.vector(-speed / 2)),
         filled(grid.half(), "copper", grid.vector(speed / 2)),
     ]
     end_time = end_time or 0.35 / (FASTEST + speed)
-    return case(grid.strip(aspect), order, end_time, phases, regions, OPEN, cfl)
+    return case(mesh or grid.strip(), order, end_time, phases, regions, OPEN, cfl)
 
 
 def shear(grid, order, speed, push=0.0, a=0.5):
@@ -156,6 +157,20 @@ def three_phases(grid, order, speed):
     return case(grid.square(16), order, min(0.3 / max(speed, 1), 0.5 / FASTEST), phases, regions, sides)
 
 
+def wedges(grid, order, count):
+    """So many phases around a line, which all fly towards it."""
+    names = ["copper", "water", "aluminium", "air", "copper", "carbopol", "aluminium", "helium"][:count]
+    phases = {f"{name}_{k}": f'material = "{name}"' for k, name in enumerate(names)}
+    velocity = grid.vector("-600*(x-0.507)", "-600*(y-0.512)")
+    regions = []
+    for k, name in enumerate(phases):  # half a turn each, painted over from its begin on by the next
+        turn = math.pi * k / count
+        half = f'shape = "half_space"\npoint = {grid.vector(0.507, 0.512)}\n'
+        half += f"normal = {grid.vector(-math.sin(turn), math.cos(turn))}"
+        regions.append(filled(half if k else EVERYWHERE, name, velocity))
+    return case(grid.square(16), order, 0.3 / FASTEST, phases, regions, '"*" = "transmissive"')
+
+
 def courant(grid, order, cfl):
     """Noise of the velocity of a solid: sines that the mesh cannot resolve."""
     noise = ["sin(9973*x+7919*y)", "sin(8887*x-6841*y)"] + (["sin(7727*x+5807*z)"] if grid.space else [])
@@ -180,7 +195,25 @@ def courant_beside_void(grid, order, cfl):
 
 
 def slivers(grid, order, aspect):
-    return impact(grid, order, 600.0, aspect=aspect, end_time=0.35 / FASTEST * min(1, 20 / aspect))
+    return impact(grid, order, 600.0, mesh=grid.strip(aspect), end_time=0.35 / FASTEST * min(1, 20 / aspect))
+
+
+def leaning_cells(grid, order, angle):
+    lowest = min(1.0, math.tan(math.radians(angle)))  # of the height of a row, over a cell's length
+    return impact(grid, order, 600.0, mesh=OWN_MESH, end_time=0.35 / FASTEST * min(1, 20 * lowest))
+
+
+def graded_cells(grid, order, jump):
+    return impact(grid, order, 600.0, mesh=OWN_MESH, end_time=0.35 / FASTEST * min(1, 20 / jump))
+
+
+def shaken_cells(grid, order, share):
+    return impact(grid, order, 600.0, mesh=OWN_MESH)
+
+
+def strip_with(placed):
+    """Text of the strip whose corners are where placed(grid, value) says."""
+    return lambda grid, value: strip_of(grid.element, grid.n, grid.across, 1.0, placed(grid, value))
 
 
 def streams(direction):
@@ -215,7 +248,7 @@ def scaled(unit):
             filled(EVERYWHERE, "aluminium", grid.vector(-256.0 * speed), pressure=131072.0 * stress),
             filled(half, "copper", grid.vector(256.0 * speed), pressure=131072.0 * stress),
         ]
-        return case('mesh = "strip.msh"', order, 2.0**-15 * by["time"], phases, regions, OPEN)
+        return case(OWN_MESH, order, 2.0**-15 * by["time"], phases, regions, OPEN)
 
     def mesh(grid, value):
         return strip_of(grid.element, grid.n, grid.across, factors(value)["length"])
@@ -244,10 +277,17 @@ def axes():
         Axis("turns of a disc", [0.25, 1.0, 3.0, 10.0], turns, [0.25]),
         Axis("volume fraction of copper", shares, fraction, [1e-12, 1 - 1e-12]),
         Axis("three phases meet at m/s", [0.0, 100.0, 800.0, 2e3, 5e3], three_phases, [800.0]),
+        Axis("phases that meet in a line", [2, 3, 4, 6, 8], wedges, [8]),
         Axis("CFL, noise in aluminium", cfl, courant, [0.8, 2.0], grows=True),
         Axis("CFL, noise in water beside a void", cfl, courant_beside_void, [0.8], grows=True),
         Axis("CFL, impact at 600 m/s", cfl, courant_of_impact, [0.8], grows=True),
         Axis("cells, length / height", [1.0, 10.0, 100.0, 1e3, 0.1, 0.01, 1e-3], slivers, [1e3]),
+        Axis("angle of cells, degrees", [90.0, 45.0, 10.0, 3.0, 1.0], leaning_cells, [1.0],
+             mesh=strip_with(lambda grid, angle: leaning(angle))),
+        Axis("neighbours longer by", [1.0, 3.0, 10.0, 30.0, 100.0], graded_cells, [100.0],
+             mesh=strip_with(lambda grid, jump: graded(grid.n, jump))),
+        Axis("corners moved by, of a cell", [0.1, 0.2, 0.3, 0.4, 0.5], shaken_cells, [0.3],
+             mesh=strip_with(lambda grid, share: shaken([grid.n] + [grid.across] * grid.space + [grid.across], share))),
         Axis("streams of gas meet, Mach", [1e-3, 1e-2, 0.1, 1.0, 5.0, 10.0, 50.0], streams(1), [50.0]),
         Axis("streams of gas part, Mach", [1e-3, 0.1, 1.0, 2.0, 5.0, 10.0, 50.0], streams(-1), [50.0]),
         *(scaled(unit) for unit in ("length", "time", "mass")),

@@ -23,9 +23,9 @@ class Grid:
 
     def __init__(self, element):
         self.element = element
-        self.space = element == "tetrahedra"
-        self.n, self.across = {"quadrilaterals": (48, 4), "triangles": (40, 4), "tetrahedra": (24, 2)}[element]
-        self.type = 3 if element == "triangles" else 4
+        self.space = element in ("tetrahedra", "hexahedra")
+        self.n, self.across = {"quadrilaterals": (48, 4), "triangles": (40, 4)}.get(element, (24, 2))
+        self.type = {"triangles": 3, "hexahedra": 8}.get(element, 4)
 
     def vector(self, x, y=0.0):
         return f"[{x!r}, {y!r}, 0.0]" if self.space else f"[{x!r}, {y!r}]"
@@ -40,7 +40,7 @@ class Grid:
 
     def square(self, n):
         if self.space:
-            return self._mesh("box_space", f"n = {n}, width = {1 / n!r}, element = 4")
+            return self._mesh("box_space", f"n = {n}, width = {1 / n!r}, element = {self.type}")
         return self._mesh("box", f"n = {n}, element = {self.type}")
 
     @staticmethod
@@ -83,5 +83,5 @@ def case(mesh, order, end_time, phases, regions, boundary=CLOSED, cfl=0.8):
     parts += [f"[phase.{name}]\n{text}" for name, text in phases.items()]
     parts += [f"[[region]]\n{text}" for text in regions]
     parts.append(f"[boundary]\n{boundary}")
-    parts.append("[output]\ncount = 1")
+    parts.append('[output]\ncount = 1\nfields = ["alpha", "density", "cobasis"]')
     return "\n\n".join(parts) + "\n"

@@ -6,8 +6,10 @@ import os
 import re
 
 import numpy
+import vtk  # noqa: F401  before threads do, at once
 
 from common.program import run_case
+from common.results import last_cells
 from stability.axes import Axis
 from stability.case import Grid
 
@@ -24,7 +26,7 @@ TOLERANCE = 1e-10  # of mass and energy, relative; of results in other units
 DEFAULT_CFL = 0.8
 GROWTH = 1.1  # of kinetic energy, which falls where noise decays and bodies collide
 COLUMNS = ["axis", "value", "element", "order", "class", "exit", "steps", "mass_error", "energy_error", "least_volume"]
-COLUMNS += ["units_error", "words"]
+COLUMNS += ["least_density", "least_det_cobasis", "units_error", "words"]
 
 
 @dataclasses.dataclass
@@ -39,6 +41,8 @@ class Point:
     mass_error: float = math.nan
     energy_error: float = math.nan
     least_volume: float = math.nan  # of a phase, of the whole
+    least_density: float = math.nan  # of a phase where it is, at the end [kg/m^3]
+    least_det_cobasis: float = math.nan  # likewise of a solid
     units_error: float = math.nan
     words: str = ""
     last: dict = dataclasses.field(default_factory=dict)  # the last row of its history
@@ -63,7 +67,8 @@ class Point:
         return case
 
     def row(self):
-        numbers = [self.mass_error, self.energy_error, self.least_volume, self.units_error]
+        numbers = [self.mass_error, self.energy_error, self.least_volume, self.least_density, self.least_det_cobasis]
+        numbers = [*numbers, self.units_error]
         numbers = ["" if math.isnan(number) else f"{number:.3g}" for number in numbers]
         head = [self.axis.name, self.axis.label(self.value), self.element, self.order, self.verdict, self.exit]
         return head + [self.steps] + numbers + [self.words]
@@ -91,6 +96,20 @@ def energy_error(history):
     balance = total(history, "energy") + sum(left)
     scale = max(abs(total(history, "energy"))) + sum(max(abs(values)) for values in left)
     return float(max(abs(balance - balance[0])) / scale) if scale else 0.0
+
+
+def least_of_fields(directory):
+    """(density, det e) of the last output, where a phase has at least 1 % of a cell; NaN: of no phase."""
+    cells = last_cells(directory)
+    densities, determinants = [math.nan], [math.nan]
+    for name in [name for name in cells.fields if name.startswith("density.")]:
+        phase = name.removeprefix("density.")
+        there = cells.fields.get(f"alpha.{phase}", numpy.ones(len(cells.volume))) > 0.01
+        densities.extend(cells[name][there])
+        if f"cobasis.{phase}.e1.x" in cells.fields:
+            e = [[cells[f"cobasis.{phase}.e{beta}.{axis}"][there] for axis in "xyz"] for beta in (1, 2, 3)]
+            determinants.extend(numpy.linalg.det(numpy.moveaxis(numpy.array(e), 2, 0)))
+    return float(numpy.fmin.reduce(densities)), float(numpy.fmin.reduce(determinants))
 
 
 def judge(point, outcome, history):
@@ -133,6 +152,8 @@ def measure(point, program, folder, limit):
         if volumes:
             point.least_volume = float(min(min(values) for values in volumes) / sum(volumes)[0])
         point.last = {name: values[-1] for name, values in history.items()}
+    if outcome.exit == 0 and os.path.exists(os.path.join(case, "case.pvd")):
+        point.least_density, point.least_det_cobasis = least_of_fields(case)
     point.verdict, point.words = judge(point, outcome, history)
     return point
 

@@ -16,6 +16,7 @@ HALVES = {
 # there is anything that gives or takes energy: a void, gravity.
 BODIES = {
     "breathing_tube": ({"h": (0.15, 0.3)}, None, True),
+    "breathing_tube_axisymmetric": ({"n": (3, 8)}, None, True),
     "disc": ({"n": (12, 40)}, (1, ["-{0}*(y-1)", "{0}*(x-1)"], 8000.0), False),
     "droplet": ({"h": (0.9e-3, 1.6e-3)}, (1, ["0.0", "0.0", "-{0}"], 5.0), True),
     "droplet_axisymmetric": ({"h": (0.4e-3, 1.2e-3)}, (1, ["-{0}", "0.0"], 6.0), True),

@@ -12,7 +12,7 @@ from common.results import Failure
 from stability.point import CLASSES, COLUMNS, FINISHED, WRONG, Point
 
 COLOURS = dict(zip(CLASSES, ["#a6dba0", "#4dac9a", "#fdb863", "#9ecae1", "#fff3a0", "#c2a5cf", "#d7191c"]))
-ELEMENTS = ["quadrilaterals", "triangles", "tetrahedra"]
+ELEMENTS = ["quadrilaterals", "triangles", "hexahedra", "tetrahedra"]
 ORDERS = [1, 2]
 
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <random>
@@ -214,13 +215,15 @@ inline SmallScene small_scene(const Setup& setup, Mesh mesh, SolverOptions optio
   return scene;
 }
 
-/// Largest difference of any component, relative to that component's largest magnitude (momentum: of the vector).
+/// Largest difference of any component, relative to that component's largest magnitude (momentum: of the vector);
+/// infinite where one is no number.
 inline double largest_difference(const Fields& a, const Fields& b) {
   double worst = 0;
   const auto compare = [&](const auto& x, const auto& y, double scale) {
     for (std::int32_t cell = 0; cell < a.n_owned; ++cell) {
       const double difference = std::fabs(x[cell] - y[cell]);
-      if (!(difference <= worst * scale)) worst = difference / scale;
+      if (!(difference <= worst * scale))
+        worst = std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference / scale;
     }
   };
   const auto magnitude = [&](const auto& x) {
