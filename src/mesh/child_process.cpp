@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -47,11 +48,14 @@ std::vector<char> read_all(int file) {
   return bytes;
 }
 
+/// Not beyond what limits this process, by ulimit for example.
 void limit_memory(std::size_t extra) {
+  rlimit own{};
+  if (getrlimit(RLIMIT_AS, &own) != 0) return;
   std::ifstream statm("/proc/self/statm");
   std::size_t pages = 0;
   if (!(statm >> pages)) return;
-  const rlim_t bytes = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + extra;
+  const rlim_t bytes = std::min(own.rlim_cur, pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + extra);
   const rlimit limit{bytes, bytes};
   setrlimit(RLIMIT_AS, &limit);
 }

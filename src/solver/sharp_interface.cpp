@@ -58,6 +58,8 @@ SharpInterface::SharpInterface(const Mpi& mpi, const Mesh& mesh, const Faces& fa
   }
   fields.near.assign(faces.area.size(), 0);
   contacts_.resize(n * n);
+  between_.resize(n * n);
+  jump_.resize(n);
   speed_users_.resize(n * n);
   for (int l = 0; l < n; ++l)
     for (int m = 0; m < n; ++m)
@@ -288,34 +290,32 @@ void SharpInterface::wet(const Faces& faces, Fields& fields, double dt) {
 /// The area vectors with which phases meet in a cell: what is missing for the faces of each to close.
 void SharpInterface::contacts_of(const Faces& faces, const Fields& fields, std::int32_t cell) {
   const int n = fields.n_phases();
-  constexpr int most = 8;
   double surface = 0;
-  std::array<std::array<Point, most>, most> between{};
+  std::ranges::fill(between_, Point{0, 0, 0});
   for_each_face(cell, [&](std::int32_t f, int side) {
     surface += faces.area[f];
     if (!fields.near[f]) return;
     const Point out = ((side == 0 ? 1.0 : -1.0) * faces.area[f]) * Point{faces.nx[f], faces.ny[f], faces.nz[f]};
-    std::array<double, most> jump{};
     int dominant = 0;
     for (int k = 0; k < n; ++k) {
       const Phase& phase = fields.phases[k];
-      jump[k] = phase.alpha[cell] - phase.wetted[side][f];
+      jump_[k] = phase.alpha[cell] - phase.wetted[side][f];
       if (phase.alpha[cell] + phase.wetted[side][f] >
           fields.phases[dominant].alpha[cell] + fields.phases[dominant].wetted[side][f])
         dominant = k;
     }
-    jump[dominant] = 0;
+    jump_[dominant] = 0;
     double others = 0, gains = 0;
-    for (int k = 0; k < n; ++k) others += jump[k];
-    jump[dominant] = -others;
-    for (int k = 0; k < n; ++k) gains += std::max(0.0, jump[k]);
+    for (int k = 0; k < n; ++k) others += jump_[k];
+    jump_[dominant] = -others;
+    for (int k = 0; k < n; ++k) gains += std::max(0.0, jump_[k]);
     for (int l = 0; l < n; ++l)
       for (int m = 0; m < n; ++m)
-        if (l != m) between[l][m] = between[l][m] + contact_surface(jump[l], jump[m], gains) * out;
+        if (l != m) between_[l * n + m] = between_[l * n + m] + contact_surface(jump_[l], jump_[m], gains) * out;
   });
   for (int l = 0; l < n; ++l)
     for (int m = l + 1; m < n; ++m) {
-      const Point vector = between[l][m] - between[m][l];
+      const Point vector = between_[l * n + m] - between_[m * n + l];
       const double area = length(vector);
       if (area < 1e-13 * surface) continue;
       if (!fields.phases[l].is_void && !has_state(fields, l, cell)) continue;

@@ -136,6 +136,8 @@ class SharpInterface {
   std::vector<std::int32_t> moments_at_;         // per cell: where in moments_; -1: it has none
   std::vector<std::int32_t> moment_cells_;       // owned cells that gather
   std::vector<ContactList> contacts_;            // [l * n + m], l < m, the void last
+  std::vector<Point> between_;                   // [l * n + m], of the cell at hand: area vector from l to m
+  std::vector<double> jump_;                     // of the volume fractions at the face at hand
   std::vector<std::vector<std::pair<std::int32_t, int>>> speed_users_;
   std::vector<std::vector<std::int8_t>> health_;   // [phase][cell]: see find_health
   std::vector<std::vector<std::int8_t>> entered_;  // [phase][cell]: see find_entered

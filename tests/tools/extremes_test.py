@@ -1,5 +1,6 @@
 """What tools/extremes tells of a run, and that nothing fails silently at the extreme values. Run by CTest."""
 import csv
+import math
 import os
 import stat
 import subprocess
@@ -13,7 +14,8 @@ sys.path.insert(0, os.path.join(ROOT, "tools"))
 from stability.axes import AXES, Axis  # noqa: E402
 from stability.case import Grid  # noqa: E402
 from stability.point import Point, compare_units, measure  # noqa: E402
-from stability.strip import strip_of  # noqa: E402
+from stability.report import ELEMENTS, ORDERS  # noqa: E402
+from stability.strip import graded, leaning, shaken, strip_of  # noqa: E402
 
 HISTORY = "step,time,dt,energy.gas,outflow.left.energy.gas\\n0,0,0,{first}\\n9,1,1,{last}"
 DONE = "steps=9 time=1 mass_error={mass}"
@@ -87,13 +89,46 @@ class Units(unittest.TestCase):
         self.assertEqual(self.verdicts({2.0**30: 1e-15, 1e9: 1e-8})[1], "WRONG")
 
     def test_meshes_are_images_of_each_other_to_the_last_bit(self):
-        for element in ("quadrilaterals", "triangles", "tetrahedra"):
+        for element in ELEMENTS:
             nodes = []
             for length in (1.0, 2.0**-30):
                 text = strip_of(element, 6, 2, length)
                 lines = text.split("$Nodes\n")[1].split("\n$EndNodes")[0].split("\n")[1:]
                 nodes.append([[float(x) / length for x in line.split()[1:]] for line in lines])
             self.assertEqual(*nodes)
+
+
+class Strips(unittest.TestCase):
+    """Of corners at (x, y) in cells, that are moved."""
+
+    def corners(self, place, n=16, across=4):
+        return {(x, y): place(x, y) for x in range(n + 1) for y in range(across + 1)}
+
+    def test_rows_lean_with_the_angle(self):
+        at = self.corners(leaning(1.0))
+        for y in range(4):
+            (a, low), (b, high) = at[3, y], at[3, y + 1]
+            self.assertAlmostEqual(math.degrees(math.atan2(high - low, abs(b - a))), 1.0)
+        self.assertEqual(self.corners(leaning(90.0))[3, 1], (3, 1))
+
+    def test_neighbours_differ_by_the_factor_and_the_middle_stays(self):
+        x = [self.corners(graded(16, 100.0))[i, 0][0] for i in range(17)]
+        lengths = [b - a for a, b in zip(x, x[1:])]
+        self.assertAlmostEqual(max(b / a for a, b in zip(lengths, lengths[1:])), 100.0)
+        self.assertAlmostEqual((x[7] + x[9]) / 2, 8.0)
+
+    def test_only_corners_inside_are_moved(self):
+        at = self.corners(shaken([16, 4], 0.3))
+        for (i, j), (x, y) in at.items():
+            self.assertEqual(x == i, i in (0, 16))
+            self.assertEqual(y == j, j in (0, 4))
+            self.assertLessEqual(max(abs(x - i), abs(y - j)), 0.3)
+
+    def test_hexahedra_have_every_face_twice_or_on_the_boundary(self):
+        text = strip_of("hexahedra", 3, 2, 1.0)
+        types = [line.split()[1] for line in text.split("$Elements\n")[1].split("\n")[1:-1] if line[0].isdigit()]
+        self.assertEqual(types.count("5"), 12)
+        self.assertEqual(types.count("3"), 2 * (3 * 2 + 3 * 2 + 2 * 2))
 
 
 class Tool(unittest.TestCase):
@@ -127,7 +162,7 @@ class Tool(unittest.TestCase):
                 self.assertTrue(picture.read().startswith(b"\x89PNG"))
             with open(os.path.join(folder, "extremes.csv"), newline="") as table:
                 rows = list(csv.DictReader(table))
-            self.assertEqual(len(rows), 6 * sum(len(axis.quick) for axis in AXES))
+            self.assertEqual(len(rows), len(ELEMENTS) * len(ORDERS) * sum(len(axis.quick) for axis in AXES))
             finished = sum(row["class"] == "finished" for row in rows)
             self.assertGreater(finished, 0.9 * len(rows))
 

@@ -162,7 +162,7 @@ TEST_CASE("in its meridian plane a tube has the exact period at any depth, and f
   const Swing coarse = tube_around_axis(0.2, element, speed, 8), fine = tube_around_axis(0.1, element, speed, 8);
   CAPTURE(fine.period(1), coarse.loss(1), fine.loss(1));
   CHECK(fine.period(1) == Approx(period).epsilon(0.002));  // rubber that is compressed a little swings slower by 0.0013
-  CHECK(fine.loss(1) < 0.035);
+  CHECK(fine.loss(1) < 0.05);
   CHECK(coarse.loss(1) > 3 * fine.loss(1));
 }
 

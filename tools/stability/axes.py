@@ -159,7 +159,7 @@ def three_phases(grid, order, speed):
 
 def wedges(grid, order, count):
     """So many phases around a line, which all fly towards it."""
-    names = ["copper", "water", "aluminium", "air", "copper", "carbopol", "aluminium", "helium"][:count]
+    names = [["copper", "water", "aluminium", "air", "carbopol", "helium"][k % 6] for k in range(count)]
     phases = {f"{name}_{k}": f'material = "{name}"' for k, name in enumerate(names)}
     velocity = grid.vector("-600*(x-0.507)", "-600*(y-0.512)")
     regions = []
@@ -277,7 +277,7 @@ def axes():
         Axis("turns of a disc", [0.25, 1.0, 3.0, 10.0], turns, [0.25]),
         Axis("volume fraction of copper", shares, fraction, [1e-12, 1 - 1e-12]),
         Axis("three phases meet at m/s", [0.0, 100.0, 800.0, 2e3, 5e3], three_phases, [800.0]),
-        Axis("phases that meet in a line", [2, 3, 4, 6, 8], wedges, [8]),
+        Axis("phases that meet in a line", [2, 3, 4, 6, 12], wedges, [12]),
         Axis("CFL, noise in aluminium", cfl, courant, [0.8, 2.0], grows=True),
         Axis("CFL, noise in water beside a void", cfl, courant_beside_void, [0.8], grows=True),
         Axis("CFL, impact at 600 m/s", cfl, courant_of_impact, [0.8], grows=True),

@@ -173,3 +173,27 @@ TEST_CASE("what the arrays hold of a phase where it is absent is not felt") {
     }
   }
 }
+
+TEST_CASE("as many phases meet as a case may have") {
+  constexpr int most = 31;
+  const char* const materials[] = {"copper", "water", "aluminium", "air"};
+  std::vector<std::string> phases;
+  for (int k = 0; k < most; ++k) phases.push_back(materials[k % 4]);
+  for (const InterfaceTreatment interface : {diffuse, InterfaceTreatment::compressed, sharp_planes}) {
+    Setup setup = busy_setup(phases, true);
+    setup.scheme = {.order = 2, .interface = interface};
+    setup.boundaries = {{"*", Wall{}, "walls:1"}};
+    SmallScene scene = small_scene(setup, small_mesh(CellType::triangle, 11));
+    const auto all = [&](const std::string& kind) {
+      double sum = 0;
+      for (const Column& column : scene.solver->totals())
+        if (column.name.starts_with(kind)) sum += column.value;
+      return sum;
+    };
+    const double mass = all("mass."), energy = all("energy.");
+    for (int step = 0; step < 3; ++step) scene.solver->advance(1);
+    CAPTURE(static_cast<int>(interface));
+    CHECK(all("mass.") == Approx(mass).epsilon(1e-13));
+    CHECK(all("energy.") == Approx(energy).epsilon(1e-13));
+  }
+}
