@@ -6,6 +6,7 @@
 #include "app/case_parts.hpp"
 #include "math/suggestion.hpp"
 #include "physics/material_library.hpp"
+#include "solver/interfaces.hpp"
 
 namespace cobasis {
 namespace {
@@ -193,7 +194,7 @@ std::optional<int> CaseReading::phase(const std::string& name, const Place& wher
 void read_phases(const CaseTable& top, CaseReading& reading) {
   const TomlEntry* phases = top.table("phase");
   if (!phases) return;
-  constexpr std::size_t most = 100;  // every two of them may meet
+  constexpr std::size_t most = Interfaces::most_phases;
   if (const std::size_t n = std::get<TomlTable>(phases->value.data).size(); n > most) {
     reading.mistakes.add(phases->where, fmt::format("{} phases; allowed: at most {}", n, most));
     return;

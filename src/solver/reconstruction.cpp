@@ -148,7 +148,6 @@ void Reconstruction::find_slopes(Group& group, Fields& fields, const Faces& face
     if (phase.is_void) continue;
     for (int mirrors = 0; mirrors < 2; ++mirrors) {
       select(group, fields, k, mirrors);
-      for (const std::int32_t cell : without_.span()) phase.slopes_known[cell] = 0;
       for (const auto& [list, around] : {std::pair(&with_slopes_, mirrors), std::pair(&beside_gaps_, gaps)}) {
         const std::int32_t count = list->size();
         for (const std::int32_t cell : list->span()) phase.slopes_known[cell] = 1;
@@ -192,10 +191,13 @@ void Reconstruction::forget_slopes(Fields& fields) {
 
 void Reconstruction::run_inside(Fields& fields, const Faces& faces, const ReconstructionOptions& options) {
   forget_slopes(fields);
-  if (stencil_.averages)
+  if (stencil_.averages) {
+    // of all cells: where a phase has been it may have left some, of a step that a restart does not know
+    for (Phase& phase : fields.phases) std::ranges::fill(phase.slopes_known, 0.0);
     find_slopes(inside_, fields, faces);
-  else
+  } else {
     run(inside_, fields, faces, options);
+  }
 }
 
 void Reconstruction::run_beside_halo(const Mesh& mesh, Fields& fields, const Faces& faces,

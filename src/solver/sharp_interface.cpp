@@ -243,11 +243,12 @@ void SharpInterface::wet_face(const Faces& faces, Fields& fields, std::int32_t f
     wetted(k) = 0;
   }
   if (sum <= 0) return as_the_cells_are();  // nothing is left
-  if (knows_centres(fields)) find_wetted_centroids(fields, face, from_left >= 0.5 ? 0 : 1, dt);
   for (Phase& phase : fields.phases) {
     if (sum != 1) phase.wetted[0][face] /= sum;
     phase.wetted[1][face] = phase.wetted[0][face];
   }
+  // of what is left: a phase that has now all of the face, has it around its centre
+  if (knows_centres(fields)) find_wetted_centroids(fields, face, from_left >= 0.5 ? 0 : 1, dt);
 }
 
 void SharpInterface::wet(const Faces& faces, Fields& fields, double dt) {
@@ -278,7 +279,7 @@ void SharpInterface::wet(const Faces& faces, Fields& fields, double dt) {
       for (const std::int32_t cell : *cells) find_entered(faces, fields, cell, dt);
   exchange_for_faces();
   const auto faces_of = [&](std::int32_t cell) { for_each_face(cell, [&](std::int32_t f, int) { consider(f); }); };
-  for (const auto* cells : {&cut_cells_, &mixed_cells_, &frontier_})
+  for (const auto* cells : {&cut_cells_, &mixed_cells_, &frontier_, &between_sides_})
     for (const std::int32_t cell : *cells) faces_of(cell);
   for (std::int32_t cell = mesh_.n_owned; cell < mesh_.n_cells(); ++cell)
     if (knows_plane(cell) || fields.pure[cell] < 0) faces_of(cell);

@@ -185,7 +185,7 @@ void SharpInterface::place(const Faces& faces, Fields& fields,
     if (fields.pure[cell] < 0) cut_cells_.push_back(cell);
   if (shares_planes_) find_health(fields);
   std::erase_if(cut_cells_, [&](std::int32_t cell) {
-    if (has_planes(fields, cell)) return false;
+    if (has_planes(fields, cell) && has_direction(faces, fields, cell)) return false;
     mixed_cells_.push_back(cell);
     return true;
   });
@@ -331,9 +331,11 @@ void SharpInterface::spread(Fields& fields, int ring) {
 }
 
 /// Where two pure cells of different phases meet and neither knows a plane, the faces between them are one: at an edge
-/// their mean.
+/// their mean. A cell with others on opposite sides, a layer as thin as itself, has none: there they meet at its faces.
 void SharpInterface::seed(const Faces& faces, Fields& fields) {
+  constexpr double least_closed = 1e-6;  // of the faces' area: less is round-off of sides that cancel
   const int n = fields.n_phases();
+  between_sides_.clear();
   for (int lm = 0; lm < n * n; ++lm) contacts_[lm].clear(), speed_users_[lm].clear();
   for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) {
     const int own = fields.pure[cell];
@@ -355,7 +357,11 @@ void SharpInterface::seed(const Faces& faces, Fields& fields) {
         area += faces.area[f];
         if (faces.area[f] > largest) largest = faces.area[f], widest = other;
       });
-      if (widest < 0 || !(length(sum) > 0)) continue;
+      if (widest < 0) continue;
+      if (!(length(sum) > least_closed * area)) {
+        between_sides_.push_back(cell);
+        continue;
+      }
       const Point normal = (1 / length(sum)) * sum;
       adopt(fields, k, cell, widest, {normal, distance / area}, 0, 2);
       frontier_.push_back(cell);

@@ -50,6 +50,7 @@ void Solver::take_step(double until) {
     dt = sweep_centred(until);
   }
   if (dt == 0) return;
+  if (creeps()) return find_slowest();
   if (sharp_) sharp_->act(faces_, fields_, touched_cells_.span());
   update_cells(dt);
   if (falls) accelerate(fields_, (dt - fallen) * setup_.gravity);

@@ -97,7 +97,7 @@ class Solver {
  private:
   void allocate();
   void set_initial_state();
-  std::optional<Point> first_shown(const InitialState& initial, int k, std::size_t region) const;
+  std::optional<Point> first_of(const std::function<bool(std::int32_t)>& is) const;
   void set_reference_states(const InitialState& initial);
   void set_state(int k, std::int32_t cell, double alpha, const PhaseState& state, const Point& x);
   void take_step(double until);
@@ -130,6 +130,9 @@ class Solver {
   void mend(std::vector<std::pair<std::int32_t, int>>& inadmissible);
   void note_unphysical(int k, std::int32_t cell);
   void find_undefined_speed();
+  bool creeps() const;
+  void find_slowest();
+  void blame(std::int32_t cell, const std::string& why);
   std::string unphysical_report() const;
 
   Setup setup_;

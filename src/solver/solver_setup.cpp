@@ -35,6 +35,8 @@ void check_formulas(const PhaseSetup& phase, const PhaseState& state, const Poin
     const double rho = (*state.density)(x), densest = std::visit([](const auto&e) { return e.densest(); }, phase.eos);
     if (!(0 < rho && rho < densest)) refuse("density", rho, fmt::format("0 < density < {:g} [kg/m^3]", densest));
   }
+  for (const Expression& component : state.velocity)
+    if (const double u = component(x); !std::isfinite(u)) refuse("velocity", u, "finite numbers [m/s]");
 }
 
 /// The conserved state per volume of the phase: rho, rho u, rho E, e.
@@ -318,30 +320,42 @@ void Solver::set_initial_state() {
   if (fields_.multiphase()) set_reference_states(initial);
 }
 
-/// The centroid of the first of all ranks' cells, by global id, that shows the region's state of a phase. Collective.
-std::optional<Point> Solver::first_shown(const InitialState& initial, int k, std::size_t region) const {
+/// The centroid of the first of all ranks' cells, by global id, of those that are; nullopt: none is. Collective.
+std::optional<Point> Solver::first_of(const std::function<bool(std::int32_t)>& is) const {
   std::int32_t first = -1;
   for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell)
-    if (initial.region[k][cell] == static_cast<std::int32_t>(region) &&
-        (first < 0 || mesh_.global_id[cell] < mesh_.global_id[first]))
-      first = cell;
+    if (is(cell) && (first < 0 || mesh_.global_id[cell] < mesh_.global_id[first])) first = cell;
   const double own = first < 0 ? infinity : static_cast<double>(mesh_.global_id[first]), least = mpi_.min(own);
   if (least == infinity) return std::nullopt;
   const Point x = own == least ? mesh_.centroid[first] : Point{infinity, infinity, infinity};
   return Point{mpi_.min(x.x), mpi_.min(x.y), mpi_.min(x.z)};
 }
 
-/// The padding behind all cells holds for each phase the state of the first region that shows it.
+/// The padding behind all cells holds for each phase the state of the first region that shows it; else that of the first
+/// inflow through which it comes.
 void Solver::set_reference_states(const InitialState& initial) {
   for (int k = 0; k < fields_.n_phases(); ++k) {
     Phase& phase = fields_.phases[k];
     if (phase.is_void) continue;
     std::optional<Point> x;
-    std::size_t region = 0;
-    for (; region < setup_.regions.size(); ++region)
-      if (setup_.regions[region].filling.alpha[k] > 0 && (x = first_shown(initial, k, region))) break;
+    const PhaseState* state = nullptr;
+    for (std::size_t region = 0; region < setup_.regions.size() && !x; ++region) {
+      if (!(setup_.regions[region].filling.alpha[k] > 0)) continue;
+      state = &setup_.regions[region].filling.states[k];
+      x = first_of(
+          [&](std::int32_t cell) { return initial.region[k][cell] == static_cast<std::int32_t>(region); });
+    }
+    for (std::size_t i = 0; i < boundaries_.size() && !x; ++i) {
+      const auto* inflow = std::get_if<Inflow>(&boundaries_[i]);
+      if (!inflow || !(inflow->filling.alpha[k] > 0)) continue;
+      state = &inflow->filling.states[k];
+      const BoundaryGroup& group = mesh_.boundary_groups[i];
+      std::vector<std::int32_t> beside(mesh_.left.begin() + group.first, mesh_.left.begin() + group.last);
+      std::ranges::sort(beside);
+      x = first_of([&](std::int32_t cell) { return std::ranges::binary_search(beside, cell); });
+    }
     if (!x) continue;
-    set_state(k, fields_.n_all, 1, setup_.regions[region].filling.states[k], *x);
+    set_state(k, fields_.n_all, 1, *state, *x);
     CellList cell(pack_width);
     cell.push(fields_.n_all);
     cell.fill(pack_width);

@@ -285,23 +285,43 @@ void Solver::note_unphysical(int k, std::int32_t cell) {
   }
 }
 
-/// A wave speed that is not a finite number: names the phase whose state in the cell, or beside it, makes it so.
+/// Of the length of a step: names the phase that has most of the cell.
+void Solver::blame(std::int32_t cell, const std::string& why) {
+  int largest = -1;
+  for (int k = 0; k < fields_.n_phases(); ++k)
+    if (!fields_.phases[k].is_void && (largest < 0 || fields_.phases[k].alpha[cell] > fields_.phases[largest].alpha[cell]))
+      largest = k;
+  note_troubled(cell, largest);
+  unphysical_ += "; " + why;
+}
+
+/// A wave speed that is not a finite number, because of a state in the cell or beside it.
 void Solver::find_undefined_speed() {
   for (std::int32_t i = 0; i < material_count_; ++i) {
     const std::int32_t cell = material_cells_[i];
     for (int j = 0; j < faces_.max_cell_faces; ++j) {
       const std::int32_t face = faces_.cell_faces[static_cast<std::size_t>(j) * faces_.cell_stride + cell] >> 1;
-      if (std::isfinite(faces_.fastest[face])) continue;
-      int largest = -1;
-      for (int k = 0; k < fields_.n_phases(); ++k)
-        if (!fields_.phases[k].is_void &&
-            (largest < 0 || fields_.phases[k].alpha[cell] > fields_.phases[largest].alpha[cell]))
-          largest = k;
-      note_troubled(cell, largest);
-      unphysical_ += "; a wave speed is not a finite number";
-      return;
+      if (!std::isfinite(faces_.fastest[face])) return blame(cell, "a wave speed is not a finite number");
     }
   }
+}
+
+/// Whether no machine would take all the steps that are left at this pace, and the case sets no number of them.
+bool Solver::creeps() const {
+  constexpr double most_steps = 1e10;
+  return !setup_.max_steps && setup_.cfl * stable_step_ * most_steps < setup_.end_time;
+}
+
+/// The cell that makes the step so small, on the rank that has it.
+void Solver::find_slowest() {
+  for (std::int32_t i = 0; i < material_count_; ++i) {
+    CellList cell(pack_width);
+    cell.push(material_cells_[i]);
+    cell.fill(pack_width);
+    if (largest_step<double>(faces_, fields_.volume, cell, 1) <= (1 + 1e-9) * stable_step_)
+      return blame(material_cells_[i], fmt::format("waves or flow this fast allow steps of {:.3g} s", stable_step_));
+  }
+  troubled_ = true;
 }
 
 /// The same on all ranks. Collective.

@@ -15,19 +15,20 @@ class Outcome:
     summary: dict  # the numbers of its last line
 
 
-def command_of(program, case, directory, settings, ranks=1):
+def command_of(program, case, directory, settings, ranks=1, restart=False):
     """Of a case of cases/."""
     command = ["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
     command += [program, "run", os.path.join(ROOT, "cases", case + ".toml"), "--quiet", "--output", directory]
     for key, value in settings.items():
         command += ["--set", f"{key}={value}"]
-    return command
+    return command + (["--restart"] if restart else [])
 
 
-def run_case(program, case, directory, settings, limit, ranks=1):
-    """What was in the directory goes."""
-    shutil.rmtree(directory, ignore_errors=True)
-    command = command_of(program, case, directory, settings, ranks)
+def run_case(program, case, directory, settings, limit, ranks=1, restart=False):
+    """What was in the directory goes, unless the run goes on from there."""
+    if not restart:
+        shutil.rmtree(directory, ignore_errors=True)
+    command = command_of(program, case, directory, settings, ranks, restart)
     environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     run = subprocess.Popen(command, text=True, env=environment, stdin=subprocess.DEVNULL,
                            stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # fmt: skip
