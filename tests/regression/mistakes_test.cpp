@@ -162,6 +162,9 @@ TEST_CASE("a formula that gives what a phase cannot hold is refused with the pla
   check_refused(with(right, "left = \"transmissive\"",
                      "left = { type = \"inflow\", fill = \"air\", pressure = \"1e5*(0.5 - y)\" }"),
                 {"boundary 'left'", "of phase \"air\" at (0, ", "allowed: 0 < pressure [Pa]"});
+  check_refused(with(right, "left = \"transmissive\"",
+                     "left = { type = \"inflow\", fill = \"air\", pressure = 1e5, velocity = [\"sqrt(0.5 - y)\", 0] }"),
+                {"boundary 'left'", "velocity = ", "of phase \"air\" at (0, ", "allowed: finite numbers [m/s]"});
 }
 
 TEST_CASE("what only one of several ranks finds wrong is told like what all find") {

@@ -132,3 +132,28 @@ bottom = { type = "periodic", with = "top" }
   CHECK(total(*scene.solver, "momentum.gas.x") == Approx(momentum).epsilon(1e-12));
   CHECK(total(*scene.solver, "energy.gas") == Approx(energy).epsilon(1e-13));
 }
+
+TEST_CASE("a liquid that only its inlet shows comes in with a sharp surface") {
+  const std::string element = GENERATE("3", "4");
+  CAPTURE(element);
+  Scene scene = make_scene("mesh = \"@box.geo\"\nmesh_parameters = { n = 20, element = " + element + R"( }
+end_time = 3e-3
+[phase.water]
+material = "water"
+[phase.air]
+material = "air"
+[[region]]
+shape = "everywhere"
+fill = "air"
+pressure = 1e5
+[boundary]
+left = { type = "inflow", fill = "water", pressure = 1e5, velocity = [200.0, 0.0] }
+right = "transmissive"
+"*" = "symmetry"
+)",
+                           ranks());
+  scene.run();
+  const Solver& solver = *scene.solver;
+  CHECK(total(solver, "mass.water") == Approx(-total(solver, "outflow.left.mass.water")).epsilon(1e-12));
+  CHECK(total(solver, "volume.water") == Approx(200 * 3e-3).epsilon(0.01));  // u t times the inlet
+}
