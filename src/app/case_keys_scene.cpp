@@ -97,7 +97,7 @@ void add_boundaries_and_output(std::vector<KeyTable>& tables) {
                               .kind = KeyKind::vector_field,
                               .unit = "m/s",
                               .fallback = "at rest",
-                              .meaning = "of the wall; the mesh stays, and what a wall that moves displaces enters"};
+                              .meaning = "of the wall; the mesh stays: along its normal, material enters or leaves there"};
   tables.push_back({"[boundary] type = wall", "frictionless: of a velocity the normal part counts", {wall_velocity}});
   tables.push_back({"[boundary] type = no_slip",
                     "solids are bonded to it; before fluids, which have no viscosity, a frictionless wall",

@@ -29,7 +29,7 @@ void check_table_names(const Setup& setup) {
 
 }  // namespace
 
-Output::Output(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mpi& mpi)
+Output::Output(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mpi& mpi, Disk disk)
     : setup_(setup),
       mesh_(mesh),
       mpi_(mpi),
@@ -37,17 +37,6 @@ Output::Output(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
       integrals_(setup.integrals, geometry, mesh, mpi, setup.phases),
       latest_integrals_(setup.integrals.size(), std::numeric_limits<double>::quiet_NaN()) {
   check_table_names(setup);
-  try {
-    together([&] {
-      const std::string probe = fmt::format(".writable.{}", mpi.rank());
-      make_writable_directory(setup_.output.directory, probe);
-      for (const char* folder : {"/fields", "/lines"}) make_writable_folder(setup_.output.directory + folder, probe);
-      if (!setup_.slices.empty()) make_writable_folder(setup_.output.directory + "/slices", probe);
-    });
-  } catch (const SystemError& error) {
-    throw InputError(
-        fmt::format("{}: {}; allowed: a directory that can be made and written to", setup.output.where, error.what()));
-  }
   if (setup.output.only.empty()) vtu_ = std::make_unique<VtuWriter>(draw(mesh), setup.output.float64);
   for (const SliceSetup& slice : setup.slices) {
     const DrawnCells drawn = draw_cut(mesh, slice.point, slice.normal);
@@ -63,6 +52,18 @@ Output::Output(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
   for (const ProbeSetup& probe : setup.probes) {
     const std::string what = fmt::format("{}: [[probe]] '{}'", setup.case_file, probe.name);
     probes_.push_back({probe.name, {mesh, mpi, {probe.at}, what}, {}, {}});
+  }
+  if (disk == Disk::untouched) return;
+  try {
+    together([&] {
+      const std::string probe = fmt::format(".writable.{}", mpi.rank());
+      make_writable_directory(setup_.output.directory, probe);
+      for (const char* folder : {"/fields", "/lines"}) make_writable_folder(setup_.output.directory + folder, probe);
+      if (!setup_.slices.empty()) make_writable_folder(setup_.output.directory + "/slices", probe);
+    });
+  } catch (const SystemError& error) {
+    throw InputError(
+        fmt::format("{}: {}; allowed: a directory that can be made and written to", setup.output.where, error.what()));
   }
 }
 

@@ -279,6 +279,7 @@ void run_case(const CommandLine& command, const Mpi& mpi) {
 void check_case(const CommandLine& command, const Mpi& mpi) {
   const Scene scene = open_scene(read_case(command.file, command.overrides), command.trust_geo, 0, mpi);
   const Setup& setup = scene.setup;
+  const Output refuses_what_run_would(setup, scene.geometry, scene.mesh, mpi, Output::Disk::untouched);
   Solver solver(setup, scene.geometry, scene.mesh, mpi);
   const auto done = [&] { return solver.time() >= setup.end_time || solver.step() == setup.max_steps; };
   const double dt = solver.advance(setup.end_time);  // it also touches memory for the first time: not measured
