@@ -93,11 +93,12 @@ void add_boundaries_and_output(std::vector<KeyTable>& tables) {
          .kind = KeyKind::word_or_table,
          .words = {"wall", "no_slip", "symmetry", "axis", "transmissive", "outlet", "inflow", "periodic"},
          .meaning = "of a physical group, or of \"*\", every group not named; a word or { type = word, ... }"}}});
-  const KeyInfo wall_velocity{.key = "velocity",
-                              .kind = KeyKind::vector_field,
-                              .unit = "m/s",
-                              .fallback = "at rest",
-                              .meaning = "of the wall; the mesh stays: along its normal, material enters or leaves there"};
+  const KeyInfo wall_velocity{
+      .key = "velocity",
+      .kind = KeyKind::vector_field,
+      .unit = "m/s",
+      .fallback = "at rest",
+      .meaning = "of the wall; the mesh stays: along its normal, material enters or leaves there"};
   tables.push_back({"[boundary] type = wall", "frictionless: of a velocity the normal part counts", {wall_velocity}});
   tables.push_back({"[boundary] type = no_slip",
                     "solids are bonded to it; before fluids, which have no viscosity, a frictionless wall",

@@ -34,9 +34,9 @@ namespace cobasis {
 class Output {
  public:
   enum class Disk { ready, untouched };
-  /// The mesh must outlive it. Makes the disk ready: creates the directory, last of all. Throws InputError, on all ranks
-  /// together, if nothing can be written there, two tables would share a name, a point lies outside the mesh or a plane
-  /// beside it. Files of others stay as they are; those of an earlier run of the case are replaced.
+  /// The mesh must outlive it. Makes the disk ready: creates the directory, last of all. Throws InputError, on all
+  /// ranks together, if nothing can be written there, two tables would share a name, a point lies outside the mesh or a
+  /// plane beside it. Files of others stay as they are; those of an earlier run of the case are replaced.
   Output(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mpi& mpi, Disk disk = Disk::ready);
 
   /// Fields and lines.

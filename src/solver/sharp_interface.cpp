@@ -279,7 +279,7 @@ void SharpInterface::wet(const Faces& faces, Fields& fields, double dt) {
       for (const std::int32_t cell : *cells) find_entered(faces, fields, cell, dt);
   exchange_for_faces();
   const auto faces_of = [&](std::int32_t cell) { for_each_face(cell, [&](std::int32_t f, int) { consider(f); }); };
-  for (const auto* cells : {&cut_cells_, &mixed_cells_, &frontier_, &between_sides_})
+  for (const auto* cells : {&cut_cells_, &mixed_cells_, &frontier_, &thin_layers_})
     for (const std::int32_t cell : *cells) faces_of(cell);
   for (std::int32_t cell = mesh_.n_owned; cell < mesh_.n_cells(); ++cell)
     if (knows_plane(cell) || fields.pure[cell] < 0) faces_of(cell);

@@ -133,7 +133,7 @@ class SharpInterface {
 
   std::vector<std::int32_t> cut_cells_, mixed_cells_;  // owned cells of several phases, with planes and without
   std::vector<std::int32_t> frontier_, next_, near_faces_, centred_;
-  std::vector<std::int32_t> between_sides_;      // pure cells beside other phases, without a plane
+  std::vector<std::int32_t> thin_layers_;        // pure cells beside other phases, without a plane
   int hops_ = 1;                                 // the most of any cell, see hops_of
   std::vector<Moments> moments_, next_moments_;  // of the phase at hand, see gather_moments
   std::vector<std::int32_t> moments_at_;         // per cell: where in moments_; -1: it has none

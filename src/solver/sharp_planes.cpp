@@ -335,7 +335,7 @@ void SharpInterface::spread(Fields& fields, int ring) {
 void SharpInterface::seed(const Faces& faces, Fields& fields) {
   constexpr double least_closed = 1e-6;  // of the faces' area: less is round-off of sides that cancel
   const int n = fields.n_phases();
-  between_sides_.clear();
+  thin_layers_.clear();
   for (int lm = 0; lm < n * n; ++lm) contacts_[lm].clear(), speed_users_[lm].clear();
   for (std::int32_t cell = 0; cell < mesh_.n_owned; ++cell) {
     const int own = fields.pure[cell];
@@ -359,7 +359,7 @@ void SharpInterface::seed(const Faces& faces, Fields& fields) {
       });
       if (widest < 0) continue;
       if (!(length(sum) > least_closed * area)) {
-        between_sides_.push_back(cell);
+        thin_layers_.push_back(cell);
         continue;
       }
       const Point normal = (1 / length(sum)) * sum;

@@ -331,8 +331,8 @@ std::optional<Point> Solver::first_of(const std::function<bool(std::int32_t)>& i
   return Point{mpi_.min(x.x), mpi_.min(x.y), mpi_.min(x.z)};
 }
 
-/// The padding behind all cells holds for each phase the state of the first region that shows it; else that of the first
-/// inflow through which it comes.
+/// The padding behind all cells holds for each phase the state of the first region that shows it; else that of the
+/// first inflow through which it comes.
 void Solver::set_reference_states(const InitialState& initial) {
   for (int k = 0; k < fields_.n_phases(); ++k) {
     Phase& phase = fields_.phases[k];
@@ -342,8 +342,7 @@ void Solver::set_reference_states(const InitialState& initial) {
     for (std::size_t region = 0; region < setup_.regions.size() && !x; ++region) {
       if (!(setup_.regions[region].filling.alpha[k] > 0)) continue;
       state = &setup_.regions[region].filling.states[k];
-      x = first_of(
-          [&](std::int32_t cell) { return initial.region[k][cell] == static_cast<std::int32_t>(region); });
+      x = first_of([&](std::int32_t cell) { return initial.region[k][cell] == static_cast<std::int32_t>(region); });
     }
     for (std::size_t i = 0; i < boundaries_.size() && !x; ++i) {
       const auto* inflow = std::get_if<Inflow>(&boundaries_[i]);

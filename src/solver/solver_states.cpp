@@ -289,7 +289,8 @@ void Solver::note_unphysical(int k, std::int32_t cell) {
 void Solver::blame(std::int32_t cell, const std::string& why) {
   int largest = -1;
   for (int k = 0; k < fields_.n_phases(); ++k)
-    if (!fields_.phases[k].is_void && (largest < 0 || fields_.phases[k].alpha[cell] > fields_.phases[largest].alpha[cell]))
+    if (!fields_.phases[k].is_void &&
+        (largest < 0 || fields_.phases[k].alpha[cell] > fields_.phases[largest].alpha[cell]))
       largest = k;
   note_troubled(cell, largest);
   unphysical_ += "; " + why;

@@ -169,10 +169,9 @@ TEST_CASE("a formula that gives what a phase cannot hold is refused with the pla
 
 TEST_CASE("what samples nothing is refused by check as by run, before anything is made on disk") {
   const Folder folder;
-  for (const std::string sampler :
-       {"[[probe]]\nname = \"far\"\nat = [12.0, 0.5]\n",
-        "[[line]]\nname = \"far\"\nfrom = [0.5, 0.5]\nto = [12.0, 0.5]\npoints = 5\n",
-        "[[slice]]\nname = \"far\"\npoint = [12.0, 0.0]\nnormal = [1.0, 0.0]\n"}) {
+  for (const std::string sampler : {"[[probe]]\nname = \"far\"\nat = [12.0, 0.5]\n",
+                                    "[[line]]\nname = \"far\"\nfrom = [0.5, 0.5]\nto = [12.0, 0.5]\npoints = 5\n",
+                                    "[[slice]]\nname = \"far\"\npoint = [12.0, 0.0]\nnormal = [1.0, 0.0]\n"}) {
     folder.write("wrong.toml", complete(right + sampler));
     for (const std::string command : {"check", "run"}) {
       const Outcome outcome = shell(program_with(command + " wrong.toml"), folder);

@@ -144,10 +144,11 @@ TEST_CASE("a run that is interrupted and goes on leaves the bytes of one that wa
 
 TEST_CASE("a fast body on triangles goes on with the same bytes, in a plane and around an axis") {
   // it leaves cells within a step, whose slopes and wetted faces must not be felt later
-  const std::string fast = "'mesh_parameters={ n = 24, element = 3 }' 'region=[{ shape = \"everywhere\", fill = \"air\", "
-                           "pressure = 1e5 }, { shape = \"sphere\", center = [0.35, HEIGHT], radius = 0.2, fill = "
-                           "\"copper\", pressure = 1e5, velocity = [2000, 0] }]' 'phase={ copper = { material = "
-                           "\"copper\" }, air = { material = \"air\" } }'";
+  const std::string fast =
+      "'mesh_parameters={ n = 24, element = 3 }' 'region=[{ shape = \"everywhere\", fill = \"air\", "
+      "pressure = 1e5 }, { shape = \"sphere\", center = [0.35, HEIGHT], radius = 0.2, fill = "
+      "\"copper\", pressure = 1e5, velocity = [2000, 0] }]' 'phase={ copper = { material = "
+      "\"copper\" }, air = { material = \"air\" } }'";
   const auto at = [&](const std::string& height) { return std::regex_replace(fast, std::regex("HEIGHT"), height); };
   check_restarts("ball.toml", at("0.5"), {{3, 1}, {20, 1}}, 1);
   check_restarts("ball.toml", at("0.0") + " scene=axisymmetric 'boundary.bottom=\"axis\"'", {{20, 1}, {50, 1}}, 1);

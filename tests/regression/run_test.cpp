@@ -88,9 +88,9 @@ TEST_CASE("a run that turns unphysical stops with status 3, cell, place, phase a
 
 TEST_CASE("a run whose steps would never end stops with status 3, and what makes them so small") {
   const Folder folder;
-  const Outcome outcome = shell(
-      program_with("run " + quoted(case_file("sod")) + " --output out --quiet --set end_time=1e4 'region.1.velocity=[1e7, 0]'"),
-      folder);
+  const Outcome outcome = shell(program_with("run " + quoted(case_file("sod")) +
+                                             " --output out --quiet --set end_time=1e4 'region.1.velocity=[1e7, 0]'"),
+                                folder);
   INFO(outcome.out << outcome.err);
   CHECK(outcome.status == 3);
   CHECK_THAT(outcome.err, Contains("phase 'gas'") && Contains("waves or flow this fast allow steps of "));

@@ -227,8 +227,8 @@ TEST_CASE("layers as thin as a cell feel each other, and move") {
   std::string layers;
   for (int i = 0; i < 16; i += 2)
     layers += fmt::format(
-        "[[region]]\nshape = \"box\"\nlow = [{}, -1.0]\nhigh = [{}, 1.0]\nfill = \"water\"\n{}pressure = {}\n", i / 16.0,
-        (i + 1) / 16.0, velocity, pressure);
+        "[[region]]\nshape = \"box\"\nlow = [{}, -1.0]\nhigh = [{}, 1.0]\nfill = \"water\"\n{}pressure = {}\n",
+        i / 16.0, (i + 1) / 16.0, velocity, pressure);
   Scene scene = make_scene(R"(mesh = "@tube.geo"
 mesh_parameters = { n = 16 }
 end_time = )" + end + R"(
@@ -255,8 +255,8 @@ left = { type = "periodic", with = "right" }
     const double was = before.phases[0].alpha[cell], is = after.phases[0].alpha[cell];
     REQUIRE((was == 0 || was == 1));
     CAPTURE(was, is);
-    // the water of all layers gives way until its pressure is the air's; carried on, it is half in the next cell, as far
-    // as a scheme knows where in a cell so thin a layer is
+    // the water of all layers gives way until its pressure is the air's; carried on, it is half in the next cell, as
+    // far as a scheme knows where in a cell so thin a layer is
     if (moves)
       CHECK(std::fabs(is - 0.5) < 0.25);
     else if (was == 1)

@@ -77,11 +77,12 @@ Swing tube(double h, int element, double speed, double end) {
 
 /// In its meridian plane.
 Swing tube_around_axis(double h, int element, double speed, double end) {
-  return swing("breathing_tube_axisymmetric",
-               {{"mesh_parameters", fmt::format("{{ length = {}, height = 2.5, n = 4, element = {} }}", 4 * h, element)},
-                {"region.1.velocity", fmt::format("[\"0\", \"{}/y\"]", speed)},
-                {"end_time", fmt::format("{}", end)}},
-               "rubber", [](Scene& scene) { return total(*scene.solver, "momentum.rubber.y"); });
+  return swing(
+      "breathing_tube_axisymmetric",
+      {{"mesh_parameters", fmt::format("{{ length = {}, height = 2.5, n = 4, element = {} }}", 4 * h, element)},
+       {"region.1.velocity", fmt::format("[\"0\", \"{}/y\"]", speed)},
+       {"end_time", fmt::format("{}", end)}},
+      "rubber", [](Scene& scene) { return total(*scene.solver, "momentum.rubber.y"); });
 }
 
 /// The case with its velocity at first times `scale`.

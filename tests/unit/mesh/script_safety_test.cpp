@@ -118,7 +118,8 @@ TEST_CASE("a script that asks for a trillion cells is refused, not the machine b
   const Folder folder;
   request.file = folder.write("a.geo", strip_geo(2, 2));
   request.parameters = {{"nx", 2e9}, {"ny", 500}};
-  // As under `ulimit -v`: what this process may have, the child may not exceed; all of the memory takes minutes to fill.
+  // As under `ulimit -v`: what this process may have, the child may not exceed; all of the memory takes minutes to
+  // fill.
   rlimit own{};
   REQUIRE(getrlimit(RLIMIT_AS, &own) == 0);
   std::size_t pages = 0;
