@@ -285,10 +285,13 @@ TEST_CASE("when a rank is killed the run ends and says so, and goes on from its 
   folder.write("ball.toml", ball);
   REQUIRE(run(folder, "ball.toml --quiet --output whole").status == 0);
   const std::string kill_one = "sleep 0.0$((RANDOM % 10)); kill -9 $(pgrep -P $pid -x cobasis | shuf -n 1); ";
-  const Outcome killed = shell(
-      "mpirun --quiet -n 2 " + program_with("run ball.toml --quiet --output parts --set checkpoint_every=5") +
-          " & pid=$!; until ls parts/checkpoints/*.h5 >/dev/null 2>&1; do sleep 0.01; done; " + kill_one + "wait $pid",
-      folder);
+  // mpirun may hang in its own end when all ranks have come to theirs
+  const std::string end =
+      "(sleep 60; kill -9 $pid) >/dev/null 2>&1 & dog=$!; wait $pid; status=$?; kill $dog; exit $status";
+  const Outcome killed =
+      shell("mpirun --quiet -n 2 " + program_with("run ball.toml --quiet --output parts --set checkpoint_every=5") +
+                " & pid=$!; until ls parts/checkpoints/*.h5 >/dev/null 2>&1; do sleep 0.01; done; " + kill_one + end,
+            folder);
   INFO(killed.out << killed.err);
   CHECK(killed.status != 0);
   const Outcome rest = run(folder, "ball.toml --quiet --output parts --restart");
