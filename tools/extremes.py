@@ -67,7 +67,7 @@ def main():
     options.add_argument("--program", default=os.path.join(ROOT, "build/release/cobasis"))
     options.add_argument("--output", default=os.path.join(ROOT, "out/extremes"), help="default: out/extremes")
     options.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time (default: one per core)")
-    options.add_argument("--limit", type=float, default=120, help="seconds after which a run hangs (default: 120)")
+    options.add_argument("--limit", type=float, default=600, help="seconds after which a run hangs (default: 600)")
     options.add_argument("--redraw", action="store_true", help="picture and table from extremes.csv of an earlier call")
     options.add_argument("--readme", action="store_true", help="picture and table into cases/ too")
     given = options.parse_args()
