@@ -63,7 +63,12 @@ class SharpInterface {
     return face >= mesh_.first_boundary_face() && is_symmetry_[face - mesh_.first_boundary_face()];
   }
   Point gradient(const Faces& faces, const Fields& fields, int k, std::int32_t cell) const;
-  Point area_vector(const Faces& faces, const Fields& fields, int k, std::int32_t cell) const;
+  struct Steps {
+    Point vector{0, 0, 0};  ///< outward
+    double size = 0;        ///< without direction
+    double surface = 0;     ///< of the cell
+  };
+  Steps steps_around(const Faces& faces, const Fields& fields, int k, std::int32_t cell) const;
   bool has_direction(const Faces& faces, const Fields& fields, std::int32_t cell) const;
   const CellCorners& find_corners(std::int32_t cell);
   void put_plane(const Fields& fields, int k, std::int32_t cell, const Point& n);

@@ -14,31 +14,34 @@ Point normalised(const Point& a) { return (1 / length(a)) * a; }
 
 /// Outward normal of phase k by Gauss' theorem: rough, but there is none yet.
 Point SharpInterface::gradient(const Faces& faces, const Fields& fields, int k, std::int32_t cell) const {
-  const Point g = area_vector(faces, fields, k, cell);
-  return length(g) > 0 ? normalised(g) : Point{1, 0, 0};
+  const Point steps = steps_around(faces, fields, k, cell).vector;
+  return length(steps) > 0 ? normalised(steps) : Point{1, 0, 0};
 }
 
-/// Of the phase's surface in the cell, by the volume fractions around it, outward.
-Point SharpInterface::area_vector(const Faces& faces, const Fields& fields, int k, std::int32_t cell) const {
+/// How the volume fraction falls across the faces of a cell, times their areas.
+SharpInterface::Steps SharpInterface::steps_around(const Faces& faces, const Fields& fields, int k,
+                                                   std::int32_t cell) const {
   const auto& alpha = fields.phases[k].alpha;
-  Point sum{0, 0, 0};
+  Steps sum;
   for_each_face(cell, [&](std::int32_t f, int side) {
     const double out = side == 0 ? 1 : -1;
     const bool open = f < mesh_.first_boundary_face();
     const double beyond = alpha[open ? (side == 0 ? mesh_.right[f] : mesh_.left[f]) : cell];
-    sum = sum - (0.5 * out * faces.area[f] * (alpha[cell] + beyond)) * Point{faces.nx[f], faces.ny[f], faces.nz[f]};
+    sum.vector =
+        sum.vector - (out * faces.area[f] * (alpha[cell] + beyond)) * Point{faces.nx[f], faces.ny[f], faces.nz[f]};
+    sum.size += faces.area[f] * std::fabs(alpha[cell] - beyond);
+    sum.surface += faces.area[f];
   });
   return sum;
 }
 
-/// Whether the phases around a cell say where one of them lies in it. Between the same on opposite sides, as in a layer
-/// that is as thin as the cell, no single plane does.
+/// Whether the volume fractions around a cell say where a phase lies in it. Where large steps on opposite sides cancel,
+/// as in a layer that is as thin as the cell, no single plane does.
 bool SharpInterface::has_direction(const Faces& faces, const Fields& fields, std::int32_t cell) const {
-  constexpr double least = 1e-3;  // of the cell's surface; of a plane that cuts a cube off its neighbours 1/6
-  double surface = 0;
-  for_each_face(cell, [&](std::int32_t f, int) { surface += faces.area[f]; });
-  return std::ranges::all_of(planes_of_, [&](int k) {
-    return !is_cut(fields, k, cell) || length(area_vector(faces, fields, k, cell)) > least * surface;
+  constexpr double large = 0.1, cancelled = 0.01;
+  return std::ranges::none_of(planes_of_, [&](int k) {
+    const Steps steps = steps_around(faces, fields, k, cell);
+    return steps.size > large * steps.surface && length(steps.vector) < cancelled * steps.size;
   });
 }
 
