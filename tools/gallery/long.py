@@ -50,10 +50,12 @@ class Tube:
         self.sizes = {}
 
     def runs(self, quick):
-        self.sizes = {4: [0.2, 0.1], 3: [0.2]} if quick else {4: [0.2, 0.1, 0.05], 3: [0.2, 0.1, 0.05]}
+        coarse, fine = {4: [0.2, 0.1], 3: [0.2]}, {4: [0.2, 0.1, 0.05], 3: [0.2, 0.1]}
+        section = coarse if quick else fine
+        self.sizes = {"breathing_tube": section, "breathing_tube_axisymmetric": section if quick else fine | {3: fine[4]}}
         for case in self.PLANES:
             for speed in self.EXACT:
-                for element, sizes in self.sizes.items():
+                for element, sizes in self.sizes[case].items():
                     for h in sizes:
                         yield Run(f"{case}_{element}_{speed}_{h}", case, self.settings(case, speed, element, h))
 
@@ -71,7 +73,7 @@ class Tube:
         panels = [(case, speed) for case in self.PLANES for speed in self.EXACT]
         for axis, (case, speed) in zip(axes, panels):
             words, component = self.PLANES[case]
-            for element, sizes in self.sizes.items():
+            for element, sizes in self.sizes[case].items():
                 measured = []
                 for h, colour in zip(sizes, COLOURS):
                     run = f"{case}_{element}_{speed}_{h}"
