@@ -100,8 +100,7 @@ COBASIS_KERNEL void update(const Faces& faces, const AlignedVector<double>& volu
       turned.fill(Real(0.0));
       for (int c = 0; c < L::n_cobasis; ++c) e[c] = gather<Real>(phase.conserved[L::cobasis + c].data(), at);
       for (int d = 0; d < D; ++d) u[d] = gather<Real>(phase.primitive[L::u + d].data(), at);
-      // of dust without mass that was here some steps before: the faces of an absent phase have no area to multiply it
-      // by
+      // of an absent phase it may be no number, if dust without mass was here; faces of no area would not make it zero
       if constexpr (Mixed)
         for (auto& component : u) component = select(magnitude(component) < Real(infinity), component, Real(0.0));
       for (auto& row : deformation) row.fill(Real(0.0));

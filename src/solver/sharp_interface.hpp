@@ -8,6 +8,7 @@
 
 #include <span>
 
+#include "mesh/geometry.hpp"
 #include "mesh/neighbour_exchange.hpp"
 #include "solver/keeper.hpp"
 #include "solver/kernels.hpp"
@@ -63,10 +64,12 @@ class SharpInterface {
     return face >= mesh_.first_boundary_face() && is_symmetry_[face - mesh_.first_boundary_face()];
   }
   Point gradient(const Faces& faces, const Fields& fields, int k, std::int32_t cell) const;
+  /// Steps of a volume fraction around a cell, times the areas of its faces.
   struct Steps {
-    Point vector{0, 0, 0};  ///< outward
+    Point vector{0, 0, 0};  ///< downward, which is outward
     double size = 0;        ///< without direction
-    double surface = 0;     ///< of the cell
+    /// Whether those on opposite sides leave nothing that says where a plane could lie.
+    bool cancel() const { return length(vector) < 0.01 * size; }
   };
   Steps steps_around(const Faces& faces, const Fields& fields, int k, std::int32_t cell) const;
   bool has_direction(const Faces& faces, const Fields& fields, std::int32_t cell) const;

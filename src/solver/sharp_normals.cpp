@@ -18,7 +18,6 @@ Point SharpInterface::gradient(const Faces& faces, const Fields& fields, int k, 
   return length(steps) > 0 ? normalised(steps) : Point{1, 0, 0};
 }
 
-/// How the volume fraction falls across the faces of a cell, times their areas.
 SharpInterface::Steps SharpInterface::steps_around(const Faces& faces, const Fields& fields, int k,
                                                    std::int32_t cell) const {
   const auto& alpha = fields.phases[k].alpha;
@@ -30,7 +29,6 @@ SharpInterface::Steps SharpInterface::steps_around(const Faces& faces, const Fie
     sum.vector =
         sum.vector - (out * faces.area[f] * (alpha[cell] + beyond)) * Point{faces.nx[f], faces.ny[f], faces.nz[f]};
     sum.size += faces.area[f] * std::fabs(alpha[cell] - beyond);
-    sum.surface += faces.area[f];
   });
   return sum;
 }
@@ -38,10 +36,12 @@ SharpInterface::Steps SharpInterface::steps_around(const Faces& faces, const Fie
 /// Whether the volume fractions around a cell say where a phase lies in it. Where large steps on opposite sides cancel,
 /// as in a layer that is as thin as the cell, no single plane does.
 bool SharpInterface::has_direction(const Faces& faces, const Fields& fields, std::int32_t cell) const {
-  constexpr double large = 0.1, cancelled = 0.01;
+  constexpr double large = 0.1;  // of the cell's surface: corners of simplices leave small steps on all sides
+  double surface = 0;
+  for_each_face(cell, [&](std::int32_t f, int) { surface += faces.area[f]; });
   return std::ranges::none_of(planes_of_, [&](int k) {
     const Steps steps = steps_around(faces, fields, k, cell);
-    return steps.size > large * steps.surface && length(steps.vector) < cancelled * steps.size;
+    return steps.size > large * surface && steps.cancel();
   });
 }
 

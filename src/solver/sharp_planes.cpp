@@ -333,7 +333,6 @@ void SharpInterface::spread(Fields& fields, int ring) {
 /// Where two pure cells of different phases meet and neither knows a plane, the faces between them are one: at an edge
 /// their mean. A cell with others on opposite sides, a layer as thin as itself, has none: there they meet at its faces.
 void SharpInterface::seed(const Faces& faces, Fields& fields) {
-  constexpr double least_closed = 1e-6;  // of the faces' area: less is round-off of sides that cancel
   const int n = fields.n_phases();
   thin_layers_.clear();
   for (int lm = 0; lm < n * n; ++lm) contacts_[lm].clear(), speed_users_[lm].clear();
@@ -342,9 +341,9 @@ void SharpInterface::seed(const Faces& faces, Fields& fields) {
     if (own < 0) continue;
     for (const int k : planes_of_) {
       if (valid(k, cell)) continue;
-      Point sum{0, 0, 0};
+      Steps steps;
       std::int32_t widest = -1;
-      double distance = 0, area = 0, largest = 0;
+      double distance = 0, largest = 0;
       for_each_face(cell, [&](std::int32_t f, int side) {
         if (f >= mesh_.first_boundary_face()) return;
         const std::int32_t other = side == 0 ? mesh_.right[f] : mesh_.left[f];
@@ -352,18 +351,18 @@ void SharpInterface::seed(const Faces& faces, Fields& fields) {
         if (there < 0 || there == own || (own != k && there != k)) return;
         const double out = (side == 0 ? 1.0 : -1.0) * (own == k ? 1.0 : -1.0);  // outward from phase k
         const Point normal = out * Point{faces.nx[f], faces.ny[f], faces.nz[f]};
-        sum = sum + faces.area[f] * normal;
+        steps.vector = steps.vector + faces.area[f] * normal;
         distance += faces.area[f] * dot(normal, outlines_.center(f, side));
-        area += faces.area[f];
+        steps.size += faces.area[f];
         if (faces.area[f] > largest) largest = faces.area[f], widest = other;
       });
       if (widest < 0) continue;
-      if (!(length(sum) > least_closed * area)) {
+      if (steps.cancel()) {
         thin_layers_.push_back(cell);
         continue;
       }
-      const Point normal = (1 / length(sum)) * sum;
-      adopt(fields, k, cell, widest, {normal, distance / area}, 0, 2);
+      const Point normal = (1 / length(steps.vector)) * steps.vector;
+      adopt(fields, k, cell, widest, {normal, distance / steps.size}, 0, 2);
       frontier_.push_back(cell);
       const int m = own == k ? fields.pure[widest] : own;
       contacts_[k * n + m].push(cell, own == k ? cell : widest, own == k ? widest : cell, 0, normal);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -137,9 +138,7 @@ Solver::Solver(const Setup& setup, Geometry geometry, const Mesh& mesh, const Mp
     pick_kernels<Plane>(setup_, options_.scalar, kernels_, pair_kernels_);
   else
     pick_kernels<Space>(setup_, options_.scalar, kernels_, pair_kernels_);
-  if (setup_.phases.size() > Interfaces::most_phases)
-    throw InputError(fmt::format("{}: {} phases; allowed are at most {}", setup_.case_file, setup_.phases.size(),
-                                 Interfaces::most_phases));
+  assert(setup_.phases.size() <= Interfaces::most_phases);
   allocate();
   interfaces_.emplace(faces_, fields_, std::move(inside), std::move(mirrors),
                       std::vector<FaceRange>{{mesh_.n_interior_faces, mesh_.first_boundary_face()}},

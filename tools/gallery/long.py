@@ -38,8 +38,8 @@ def spread_of(periods, unit, digits):
 
 
 class Tube:
-    """Energy over time, period and loss per period for three speeds on a sequence of meshes, in the cross section of the
-    tube and in its meridian plane."""
+    """Energy over time, period and loss per period for three speeds on a sequence of meshes, in the tube's cross section
+    and in its meridian plane."""
 
     name = "tube"
     EXACT = {0.05: 4.2707, 0.5: 4.2269, 1: 4.0991}
@@ -50,9 +50,11 @@ class Tube:
         self.sizes = {}
 
     def runs(self, quick):
-        coarse, fine = {4: [0.2, 0.1], 3: [0.2]}, {4: [0.2, 0.1, 0.05], 3: [0.2, 0.1]}
-        section = coarse if quick else fine
-        self.sizes = {"breathing_tube": section, "breathing_tube_axisymmetric": section if quick else fine | {3: fine[4]}}
+        few, many = [0.2, 0.1], [0.2, 0.1, 0.05]
+        self.sizes = {
+            "breathing_tube": {4: few, 3: [0.2]} if quick else {4: many, 3: few},
+            "breathing_tube_axisymmetric": {4: few, 3: few} if quick else {4: many, 3: many},
+        }
         for case in self.PLANES:
             for speed in self.EXACT:
                 for element, sizes in self.sizes[case].items():
